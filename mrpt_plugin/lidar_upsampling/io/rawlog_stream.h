@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the lidar_upsampling authors
+#pragma once
+
+#include <mrpt/serialization/CSerializable.h>
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace lidar_upsampling {
+
+/// One object of a log, with the very bytes it was read from.
+struct RawlogEntry {
+  mrpt::serialization::CSerializable::Ptr object;
+  std::vector<std::uint8_t> bytes;
+};
+
+/// The log ends in the middle of an object, or holds something that is no MRPT object.
+struct CorruptRawlog : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// @brief Streams a rawlog (plain or gzip) object by object, and tells a clean end from a broken one.
+/// Also tells MRPT where the log's externally stored images and scans lie: beside it, in
+/// `<stem>_Images`, `<stem>_images` or `<stem>_IMAGES`.
+class RawlogReader {
+ public:
+  /// @throw std::runtime_error the file cannot be opened.
+  explicit RawlogReader(const std::string& path);
+  ~RawlogReader();
+  RawlogReader(RawlogReader&&) noexcept;
+  RawlogReader& operator=(RawlogReader&&) = delete;
+
+  /// @return the next object, none at the clean end of the log.
+  /// @throw CorruptRawlog with the number of good objects and the byte offset; the first object being
+  /// unreadable means that the file is no rawlog, and the message says so.
+  [[nodiscard]] std::optional<RawlogEntry> next();
+
+  /// Share of the file read so far, 0 to 1.
+  [[nodiscard]] double progress() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// @brief Writes a gzip rawlog under a temporary name beside `path`; it gets its own name on
+/// `commit()`, and is removed if that never comes.
+class RawlogWriter {
+ public:
+  /// @param compression gzip level, 0 to 9 (above 1 costs time and saves nothing on scans).
+  /// @throw std::runtime_error `path` exists and `overwrite` is off, or cannot be written.
+  RawlogWriter(const std::string& path, bool overwrite, int compression = 1);
+  ~RawlogWriter();
+  RawlogWriter(const RawlogWriter&) = delete;
+  RawlogWriter& operator=(const RawlogWriter&) = delete;
+
+  /// @throw std::runtime_error the disk is full, or another write error.
+  void write(const mrpt::serialization::CSerializable& object);
+  /// Copies an object untouched.
+  void write(const RawlogEntry& entry);
+  /// Flushes, checks that all of it reached the disk, and renames.
+  void commit();
+
+  [[nodiscard]] std::size_t num_written() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace lidar_upsampling

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the lidar_upsampling authors
+#pragma once
+
+#include <mrpt/core/Clock.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <opencv2/core/mat.hpp>
+#include <string>
+#include <vector>
+
+/// Frames: `world`, `vehicle` and `lidar` have +X forward, +Y left, +Z up; `camera` has +Z forward,
+/// +X right, +Y down. `T_target_source` takes source points to target. Instants: `_k` the key scan
+/// (the last real one), `_t` the image. SI units.
+namespace lidar_upsampling {
+
+/// An instant, in MRPT's 100 ns ticks. Copied, never sent through a double.
+using Stamp = mrpt::Clock::time_point;
+
+/// A rigid motion; always named T_target_source.
+using Pose = Eigen::Isometry3d;
+
+/// Seconds from `from` to `to`, negative if `to` is the earlier one.
+inline double seconds_between(Stamp from, Stamp to) {
+  return 1e-7 * static_cast<double>((to - from).count());
+}
+
+/// The instant `dt` seconds after `stamp`, to the nearest tick.
+inline Stamp shifted(Stamp stamp, double dt) {
+  return stamp + mrpt::Clock::duration(static_cast<std::int64_t>(dt * 1e7 + (dt < 0 ? -0.5 : 0.5)));
+}
+
+/// A point cloud whose points are referred to one instant. `points` are finite, in the lidar frame;
+/// every other per-point vector has either the length of `points` or none.
+struct LidarScan {
+  Stamp stamp;
+  std::string label;
+  Pose T_vehicle_lidar = Pose::Identity();
+  std::vector<Eigen::Vector3f> points;
+  std::vector<float> intensity;       ///< [0, 1]
+  std::vector<std::uint16_t> ring;    ///< 0 is the lowest beam
+  std::vector<std::uint16_t> column;  ///< azimuth step
+  std::vector<float> time_s;          ///< from `stamp`, of each point's own measurement
+  int num_rings = 0;                  ///< 0 where `ring` is empty
+  int num_columns = 0;                ///< 0 where `column` is empty
+
+  [[nodiscard]] std::size_t size() const { return points.size(); }
+};
+
+/// MRPT's and OpenCV's distortion models; `distortion` is k1 k2 p1 p2 k3 k4 k5 k6 (plumb bob), or k1
+/// k2 at 0, 1 and k3 k4 at 4, 5 (Kannala-Brandt), as in mrpt::img::TCamera.
+enum class DistortionModel { none, plumb_bob, kannala_brandt };
+
+struct CameraModel {
+  int width = 0;
+  int height = 0;
+  double fx = 0, fy = 0, cx = 0, cy = 0;  ///< pixels
+  DistortionModel distortion_model = DistortionModel::none;
+  std::array<double, 8> distortion{};
+};
+
+/// One camera of the rig.
+struct Camera {
+  std::string label;
+  CameraModel model;
+  Pose T_vehicle_camera = Pose::Identity();
+};
+
+/// A picture and the camera that took it. `stamp` is the log's; `gray` is CV_8UC1 of the model's
+/// size; `bgr` is CV_8UC3, or empty for a gray camera.
+struct CameraImage {
+  Stamp stamp;
+  Camera camera;
+  cv::Mat gray;
+  cv::Mat bgr;
+};
+
+/// Pixels; `right` and `bottom` lie outside.
+struct Box2d {
+  double left = 0, top = 0, right = 0, bottom = 0;
+
+  [[nodiscard]] double width() const { return right - left; }
+  [[nodiscard]] double height() const { return bottom - top; }
+  [[nodiscard]] double area() const { return std::max(0., width()) * std::max(0., height()); }
+  [[nodiscard]] bool contains(double u, double v) const {
+    return u >= left && u < right && v >= top && v < bottom;
+  }
+};
+
+/// An object candidate on one image.
+struct Detection {
+  Box2d box;
+  std::string class_name;
+  double score = 1;
+  int external_track = -1;   ///< identity given by the detector itself, -1 if none
+  std::vector<int> points;   ///< indices into the key scan where the detector knows them
+};
+
+/// What became of an object at one image.
+enum class MotionStatus {
+  moving,          ///< its own motion was estimated
+  stationary,      ///< its own motion was estimated and is not distinguishable from none
+  too_few_points,  ///< fewer tracked points than a pose needs: ego-motion used
+  no_consensus     ///< the tracked points agree on no rigid motion: ego-motion used
+};
+
+/// The rigid motion of one object from the key scan to an image, and the evidence for it.
+struct ObjectMotion {
+  int track_id = -1;
+  std::string class_name;
+  std::string camera_label;
+  MotionStatus status = MotionStatus::too_few_points;
+  Pose T_lidar_t_lidar_k = Pose::Identity();  ///< ego- and object motion together (eq. 5, T_D)
+  Pose T_mov = Pose::Identity();              ///< object motion alone, in the lidar frame at k (eq. 3)
+  Eigen::Vector3d centroid_lidar_k = Eigen::Vector3d::Zero();  ///< of its points
+  Eigen::Vector3d velocity_lidar_k = Eigen::Vector3d::Zero();  ///< of the centroid over ground, m/s
+  double yaw_rate = 0;                                         ///< rad/s about lidar +Z
+  Box2d box;                                                   ///< on the image
+  std::vector<int> points;                                     ///< indices into the key scan
+  int num_tracked = 0;                                         ///< points that KLT followed
+  int num_inliers = 0;                                         ///< of them, those that agree
+  double rmse_px = 0;                                          ///< of the inliers
+};
+
+/// A scan that no sensor took: the key scan's points at an image's instant.
+struct VirtualScan {
+  LidarScan scan;                     ///< stamp = the image's; label = the output label
+  Stamp key_stamp;                    ///< of the real scan it was made from
+  std::vector<int> source_index;      ///< of each point, in the key scan
+  std::vector<int> track_id;          ///< of each point, -1: static scene
+  std::vector<ObjectMotion> objects;  ///< every candidate, whatever became of it
+  Pose T_lidar_t_lidar_k = Pose::Identity();  ///< static scene (eq. 4, T_S)
+  bool ego_extrapolated = false;
+};
+
+[[nodiscard]] const char* to_string(MotionStatus status);
+
+}  // namespace lidar_upsampling
