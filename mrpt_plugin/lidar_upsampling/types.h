@@ -125,6 +125,12 @@ struct ObjectMotion {
   double rmse_px = 0;                                          ///< of the inliers
 };
 
+/// How long a stage took for one image or scan.
+struct StageTime {
+  const char* stage;
+  double ms;
+};
+
 /// A scan that no sensor took: the key scan's points at an image's instant.
 struct VirtualScan {
   LidarScan scan;                     ///< stamp = the image's; label = the output label
@@ -133,7 +139,9 @@ struct VirtualScan {
   std::vector<int> track_id;          ///< of each point, -1: static scene
   std::vector<ObjectMotion> objects;  ///< every candidate, whatever became of it
   Pose T_lidar_t_lidar_k = Pose::Identity();  ///< static scene (eq. 4, T_S)
+  Pose T_rest_lidar_t = Pose::Identity();  ///< lidar frame at t in a frame at rest, the first scan's
   bool ego_extrapolated = false;
+  std::vector<StageTime> timing;  ///< of this scan's image, and of the key scan's stages at its first use
 };
 
 [[nodiscard]] const char* to_string(MotionStatus status);

@@ -17,16 +17,19 @@ namespace lidar_upsampling {
 [[nodiscard]] CameraModel from_mrpt(const mrpt::img::TCamera& camera);
 [[nodiscard]] mrpt::img::TCamera to_mrpt(const CameraModel& model);
 
+/// @brief The intrinsics for pictures of another size, unchanged if the model has no size yet.
+[[nodiscard]] CameraModel scaled(const CameraModel& model, int width, int height);
+
 /// Whether intrinsics are there: positive focal lengths, and a principal point inside the picture.
 [[nodiscard]] bool is_calibrated(const CameraModel& model);
 
-/// @brief The camera that an image observation describes (label, intrinsics, T_vehicle_camera), without
-/// loading any pixel.
+/// @brief The camera that an image observation describes (label, intrinsics, T_vehicle_camera),
+/// without loading any pixel.
 [[nodiscard]] Camera camera_of(const mrpt::obs::CObservationImage& observation);
 
-/// @brief The picture of an observation, loaded from external storage where it lies there (and unloaded
-/// again, so that the observation is written back as it was). The intrinsics are scaled if the picture's
-/// size differs from the calibration's.
+/// @brief The picture of an observation, loaded from external storage where it lies there (and
+/// unloaded again, so that the observation is written back as it was). The intrinsics are scaled if
+/// the picture's size differs from the calibration's.
 /// @throw std::runtime_error naming label, stamp and file: missing, or no picture.
 [[nodiscard]] CameraImage image_from_observation(mrpt::obs::CObservationImage& observation);
 

@@ -19,14 +19,18 @@ struct RawlogEntry {
   std::vector<std::uint8_t> bytes;
 };
 
+/// An object with the bytes it is written as (pictures without loss).
+[[nodiscard]] RawlogEntry entry_of(const mrpt::serialization::CSerializable::Ptr& object);
+
 /// The log ends in the middle of an object, or holds something that is no MRPT object.
 struct CorruptRawlog : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// @brief Streams a rawlog (plain or gzip) object by object, and tells a clean end from a broken one.
-/// Also tells MRPT where the log's externally stored images and scans lie: beside it, in
-/// `<stem>_Images`, `<stem>_images` or `<stem>_IMAGES`.
+/// @brief Streams a rawlog (plain or gzip) object by object, and tells a clean end from a broken
+/// one. Also tells MRPT where the externally stored images and scans of the log lie (see
+/// external_storage.h). MRPT has one such path per process: load the external files of an object
+/// before another reader is asked for its next one.
 class RawlogReader {
  public:
   /// @throw std::runtime_error the file cannot be opened.
@@ -36,8 +40,9 @@ class RawlogReader {
   RawlogReader& operator=(RawlogReader&&) = delete;
 
   /// @return the next object, none at the clean end of the log.
-  /// @throw CorruptRawlog with the number of good objects and the byte offset; the first object being
-  /// unreadable means that the file is no rawlog, and the message says so.
+  /// @throw CorruptRawlog with the number of good objects and the byte offset; the first object
+  /// being unreadable means that the file is no rawlog, and the message says so. From then on there
+  /// is none.
   [[nodiscard]] std::optional<RawlogEntry> next();
 
   /// Share of the file read so far, 0 to 1.
@@ -53,7 +58,8 @@ class RawlogReader {
 class RawlogWriter {
  public:
   /// @param compression gzip level, 0 to 9 (above 1 costs time and saves nothing on scans).
-  /// @throw std::runtime_error `path` exists and `overwrite` is off, or cannot be written.
+  /// @throw std::runtime_error `path` exists and `overwrite` is off, is no regular file, or cannot
+  /// be written.
   RawlogWriter(const std::string& path, bool overwrite, int compression = 1);
   ~RawlogWriter();
   RawlogWriter(const RawlogWriter&) = delete;
@@ -63,7 +69,8 @@ class RawlogWriter {
   void write(const mrpt::serialization::CSerializable& object);
   /// Copies an object untouched.
   void write(const RawlogEntry& entry);
-  /// Flushes, checks that all of it reached the disk, and renames.
+  /// Flushes, checks that all of it reached the disk, and renames. The last call to make.
+  /// @throw std::runtime_error a write error, or `path` has come up in the meantime.
   void commit();
 
   [[nodiscard]] std::size_t num_written() const;

@@ -1,0 +1,13 @@
+include_guard(GLOBAL)
+include(GNUInstallDirs)
+
+# A command-line tool: its sources, the library, and what apps/common/tool_main.h needs.
+function(lidar_upsampling_add_tool name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;LIBRARIES" ${ARGN})
+  add_executable(${name} ${ARG_SOURCES})
+  target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR}/apps ${PROJECT_SOURCE_DIR}/rawlog_tools)
+  target_compile_definitions(${name} PRIVATE LIDAR_UPSAMPLING_VERSION="${PROJECT_VERSION}")
+  target_link_libraries(${name} PRIVATE lidar_upsampling_options ${ARG_LIBRARIES}
+    lidar_upsampling::lidar_upsampling CLI11::CLI11)
+  install(TARGETS ${name} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+endfunction()

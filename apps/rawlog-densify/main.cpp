@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the lidar_upsampling authors
+#include <mrpt/config/CConfigFileMemory.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <stdexcept>
+
+#include "common/tool_main.h"
+#include "densify.h"
+
+namespace {
+
+using namespace lidar_upsampling;  // NOLINT(google-build-using-namespace)
+
+// Sections of the INI that belong to us; a file may hold other programs' sections too, but of its
+// keys one that is given by --set must be known.
+void set_key(mrpt::config::CConfigFileMemory& config, const std::string& assignment) {
+  const auto equals = assignment.find('=');
+  if (equals == std::string::npos || equals == 0)
+    throw std::runtime_error("--set " + assignment + ": expected name=value, or section.name=value");
+  const std::string name = assignment.substr(0, equals);
+  const auto dot = name.rfind('.');
+  const std::string section = dot == std::string::npos ? kMainSection : name.substr(0, dot);
+  const std::string key = dot == std::string::npos ? name : name.substr(dot + 1);
+  config.write(section, key, assignment.substr(equals + 1));
+}
+
+std::string read_file(const std::string& path) {
+  std::ifstream file(path);
+  std::ostringstream text;
+  text << file.rdbuf();
+  if (!file) throw std::runtime_error(path + ": cannot read this settings file");
+  return text.str();
+}
+
+void load_settings(DensifyJob& job, const std::string& path, const std::vector<std::string>& sets,
+                   const std::string& detections) {
+  mrpt::config::CConfigFileMemory config;
+  if (!path.empty()) config.setContent(read_file(path));
+  for (const std::string& assignment : sets) set_key(config, assignment);
+  if (!detections.empty()) {
+    config.write("detector", "type", std::string("csv"));
+    config.write("detector", "boxes", detections);
+  }
+  check_sections(config);
+  job.config.loadFromConfigFile(config, kMainSection);
+  job.rig = load_rig_overrides(config);
+}
+
+void write_report(const DensifyReport& report, const std::string& path) {
+  std::ofstream file(path);
+  file << to_json(report).dump(1) << '\n';
+  file.flush();
+  if (!file) throw std::runtime_error(path + ": the report cannot be written");
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app("Raises a LiDAR's frame rate to the camera's: adds a virtual 3D scan to a log at every image "
+               "that falls between two real scans",
+               "rawlog-densify");
+  DensifyJob job;
+  std::string config, detections, report_path;
+  std::vector<std::string> sets;
+  bool print_config = false;
+  app.add_option("--input", job.input, "the log to densify (.rawlog, plain or gzip)");
+  app.add_option("--output", job.output, "the densified log");
+  app.add_option("--config", config, "settings (INI); without it, the defaults");
+  app.add_option("--set", sets, "one setting: name=value of [lidar_upsampling], or section.name=value")
+      ->expected(1)
+      ->take_all();
+  app.add_option("--detections", detections,
+                 "boxes from a file: label,stamp,class,score,left,top,right,bottom[,track]");
+  app.add_option("--report", report_path, "counts, times, and a row per object and image (JSON)");
+  app.add_option("--pictures", job.pictures, "folder for pictures of every virtual scan");
+  app.add_flag("--overwrite", job.overwrite, "replace an existing output");
+  app.add_flag("--accept-truncated", job.accept_truncated,
+               "densify what is readable of a log that is cut off");
+  app.add_flag("--print-config", print_config, "print all settings with their defaults, and stop");
+  app.callback([&] {
+    if (print_config) return;
+    for (const char* name : {"--input", "--output"})
+      if (app.get_option(name)->empty()) throw CLI::RequiredError(name);
+  });
+  return run_tool(app, argc, argv, [&] {
+    if (print_config) {
+      std::cout << default_ini();
+      return;
+    }
+    load_settings(job, config, sets, detections);
+    job.keep_rows = !report_path.empty();
+    DensifyReport report;
+    {
+      Progress progress("densifying");
+      report = densify(job, std::ref(progress));
+    }
+    if (!report_path.empty()) write_report(report, report_path);
+    std::cout << summary(report);
+  });
+}

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the lidar_upsampling authors
+#include "report.h"
+
+#include <mrpt/core/Clock.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+namespace lidar_upsampling {
+namespace {
+
+double quantile(std::vector<double> values, double share) {
+  if (values.empty()) return 0;
+  const auto position = static_cast<std::size_t>(share * static_cast<double>(values.size() - 1) + 0.5);
+  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(position), values.end());
+  return values[position];
+}
+
+nlohmann::json vector_json(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
+
+nlohmann::json row_json(const DensifyReport::Row& row) {
+  const ObjectMotion& object = row.object;
+  return {{"stamp", row.stamp.time_since_epoch().count()},
+          {"unix_time", mrpt::Clock::toDouble(row.stamp)},
+          {"camera", object.camera_label},
+          {"track", object.track_id},
+          {"class", object.class_name},
+          {"status", to_string(object.status)},
+          {"points", row.num_points},
+          {"tracked", object.num_tracked},
+          {"inliers", object.num_inliers},
+          {"rmse_px", object.rmse_px},
+          {"position_m", vector_json(object.T_lidar_t_lidar_k * object.centroid_lidar_k)},
+          {"velocity_m_s", vector_json(object.velocity_lidar_k)},
+          {"yaw_rate_rad_s", object.yaw_rate},
+          {"box_px", {object.box.left, object.box.top, object.box.right, object.box.bottom}}};
+}
+
+std::string fixed(double value, int width, int digits) {
+  std::ostringstream text;
+  text.setf(std::ios::fixed);
+  text.precision(digits);
+  text.width(width);
+  text << value;
+  return text.str();
+}
+
+}  // namespace
+
+void DensifyReport::add(const VirtualScan& scan, bool keep_rows) {
+  ++num_virtual_scans;
+  if (scan.ego_extrapolated) ++num_extrapolated;
+  for (const ObjectMotion& object : scan.objects) {
+    ++object_status[to_string(object.status)];
+    tracks.insert(object.track_id);
+    if (object.status == MotionStatus::moving) moving_tracks.insert(object.track_id);
+    if (!keep_rows) continue;
+    rows.push_back({scan.scan.stamp, object.points.size(), object});
+    rows.back().object.points = {};
+  }
+  for (const StageTime& time : scan.timing) {
+    if (stage_ms.find(time.stage) == stage_ms.end()) stage_order.emplace_back(time.stage);
+    stage_ms[time.stage].push_back(time.ms);
+  }
+}
+
+void DensifyReport::warn(const std::string& text) { ++warnings[text]; }
+
+nlohmann::json to_json(const DensifyReport& report) {
+  nlohmann::json json{{"input", report.input},
+                      {"output", report.output},
+                      {"mode", "causal"},
+                      {"ego_motion", report.ego_source},
+                      {"detector", report.detector},
+                      {"carrier", report.carrier},
+                      {"entries_in", report.num_objects_in},
+                      {"scans_in", report.num_scans},
+                      {"images_in", report.num_images},
+                      {"virtual_scans", report.num_virtual_scans},
+                      {"virtual_scans_with_extrapolated_ego_motion", report.num_extrapolated},
+                      {"tracks", report.tracks.size()},
+                      {"moving_tracks", report.moving_tracks.size()},
+                      {"object_status", report.object_status},
+                      {"warnings", report.warnings},
+                      {"stages", nlohmann::json::array()},
+                      {"objects", nlohmann::json::array()}};
+  for (const std::string& stage : report.stage_order) {
+    const std::vector<double>& times = report.stage_ms.at(stage);
+    json["stages"].push_back({{"stage", stage},
+                              {"runs", times.size()},
+                              {"median_ms", quantile(times, 0.5)},
+                              {"p95_ms", quantile(times, 0.95)}});
+  }
+  for (const DensifyReport::Row& row : report.rows) json["objects"].push_back(row_json(row));
+  return json;
+}
+
+std::string summary(const DensifyReport& report) {
+  std::ostringstream text;
+  text << "mode              causal\n"
+       << "ego-motion        " << report.ego_source << '\n'
+       << "object candidates " << report.detector << '\n'
+       << "real scans        " << report.num_scans << '\n'
+       << "images            " << report.num_images << '\n'
+       << "virtual scans     " << report.num_virtual_scans << " (as " << report.carrier << ")\n"
+       << "objects tracked   " << report.tracks.size() << ", of them moving "
+       << report.moving_tracks.size() << '\n';
+  for (const auto& [status, count] : report.object_status)
+    text << "  " << status << std::string(16 - std::min<std::size_t>(15, status.size()), ' ') << count
+         << '\n';
+  if (report.num_extrapolated > 0)
+    text << "ego-motion was extrapolated for " << report.num_extrapolated << " virtual scans\n";
+  if (!report.stage_order.empty()) text << "stage                   runs  median ms  p95 ms\n";
+  for (const std::string& stage : report.stage_order) {
+    const std::vector<double>& times = report.stage_ms.at(stage);
+    text << "  " << stage << std::string(20 - std::min<std::size_t>(19, stage.size()), ' ')
+         << fixed(static_cast<double>(times.size()), 6, 0) << fixed(quantile(times, 0.5), 11, 1)
+         << fixed(quantile(times, 0.95), 8, 1) << '\n';
+  }
+  for (const auto& [warning, count] : report.warnings)
+    text << "warning (" << count << "x): " << warning << '\n';
+  return text.str();
+}
+
+}  // namespace lidar_upsampling

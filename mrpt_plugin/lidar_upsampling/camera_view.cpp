@@ -1,0 +1,276 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the lidar_upsampling authors
+#include "lidar_upsampling/camera_view.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+
+#include "lidar_upsampling/objects/object_motion.h"
+#include "lidar_upsampling/objects/object_points.h"
+#include "lidar_upsampling/vision/visibility.h"
+
+namespace lidar_upsampling {
+namespace {
+
+Pose T_camera_lidar_of(const Camera& camera, const Pose& T_vehicle_lidar) {
+  return camera.T_vehicle_camera.inverse() * T_vehicle_lidar;
+}
+
+Eigen::Vector3d centroid_of(const LidarScan& scan, const std::vector<int>& points) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (const int i : points) sum += scan.points[i].cast<double>();
+  return sum / std::max<double>(1., static_cast<double>(points.size()));
+}
+
+// The object's motion per second about its own centroid, in the lidar frame at k.
+Twist rate_of(const KnownMotion& known, const Pose& T_rest_lidar_k,
+              const Eigen::Vector3d& centroid) {
+  const Eigen::Matrix3d R_k_rest = T_rest_lidar_k.linear().transpose();
+  const Eigen::Vector3d omega(0, 0, known.yaw_rate);
+  Twist rate;
+  rate << omega, R_k_rest * known.velocity_at_rest - omega.cross(centroid);
+  return rate;
+}
+
+// Candidates with their points in the scan, their identities and the motion to expect of them.
+std::vector<Candidate> find_candidates(CameraView& view, const Picture& anchor,
+                                       const KeyScanView& key, const Pose& T_camera_lidar_a,
+                                       const std::vector<ProjectedPoint>& visible,
+                                       const std::map<int, KnownMotion>& known, Detector& detector,
+                                       const Config& config) {
+  std::vector<Detection> detections;
+  std::vector<std::optional<Eigen::Vector3d>> centroids;
+  std::vector<std::vector<int>> points;
+  for (Detection& detection :
+       detector.detect({anchor.image, &key.scan, &key.segments, T_camera_lidar_a})) {
+    auto found = detection.points.empty()
+                     ? select_object_points(key.scan, visible, key.segments, detection.box,
+                                            config.object_points)
+                     : std::optional(std::move(detection.points));
+    if (!found) continue;
+    centroids.emplace_back(key.T_rest_lidar_k * centroid_of(key.scan, *found));
+    points.push_back(std::move(*found));
+    detection.points.clear();
+    detections.push_back(std::move(detection));
+  }
+
+  const std::vector<int> ids = view.tracker.update(anchor.instant, detections, centroids);
+  std::vector<Candidate> candidates(detections.size());
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    candidates[i] = {detections[i], ids[i], std::move(points[i]), Twist::Zero()};
+    if (const auto motion = known.find(ids[i]); motion != known.end())
+      candidates[i].rate = rate_of(motion->second, key.T_rest_lidar_k,
+                                   centroid_of(key.scan, candidates[i].points));
+  }
+  return candidates;
+}
+
+// Half the distance to the next ring and azimuth step on the picture, with some room.
+Neighbourhood sampling_of(const LidarScan& scan, const CameraModel& camera) {
+  Neighbourhood result;
+  if (scan.num_rings < 2 || scan.ring.empty()) return result;
+  double lowest = M_PI, highest = -M_PI;
+  for (std::size_t i = 0; i < scan.size(); i += 16) {
+    const Eigen::Vector3f& point = scan.points[i];
+    const double elevation = std::atan2(point.z(), std::hypot(point.x(), point.y()));
+    lowest = std::min(lowest, elevation);
+    highest = std::max(highest, elevation);
+  }
+  const double ring_step_px = camera.fy * std::max(0., highest - lowest) / (scan.num_rings - 1);
+  result.half_height_px = std::clamp(1.3 * ring_step_px, 3., 60.);
+  if (scan.num_columns > 0)
+    result.half_width_px = std::clamp(2.6 * camera.fx * 2 * M_PI / scan.num_columns, 3., 30.);
+  return result;
+}
+
+// The key scan on the anchor picture, each point with what speaks against following it.
+struct AnchoredScan {
+  std::vector<ProjectedPoint> points;
+  std::vector<std::uint8_t> hidden, on_edge;  ///< of each of `points`
+  std::vector<int> position;                  ///< of each point of the scan, in `points`, or -1
+};
+
+AnchoredScan anchor_scan(const LidarScan& scan, const CameraModel& camera,
+                         const Pose& T_camera_lidar_a) {
+  AnchoredScan result;
+  result.points = project_scan(camera, T_camera_lidar_a, scan.points);
+  OcclusionOptions occlusion;
+  DepthEdgeOptions edges;
+  occlusion.neighbourhood = edges.neighbourhood = sampling_of(scan, camera);
+  result.hidden = mark_occluded(result.points, occlusion);
+  result.on_edge = mark_depth_edges(result.points, edges);
+  result.position.assign(scan.size(), -1);
+  for (std::size_t i = 0; i < result.points.size(); ++i)
+    result.position[result.points[i].index] = static_cast<int>(i);
+  return result;
+}
+
+std::vector<ProjectedPoint> visible_points(const AnchoredScan& anchored) {
+  std::vector<ProjectedPoint> visible;
+  for (std::size_t i = 0; i < anchored.points.size(); ++i)
+    if (anchored.hidden[i] == 0) visible.push_back(anchored.points[i]);
+  return visible;
+}
+
+// The object's visible points, those on depth edges only if there are too few others.
+std::vector<ProjectedPoint> followable_points(const AnchoredScan& anchored,
+                                              const std::vector<int>& object, int min_points) {
+  std::vector<ProjectedPoint> inner, all;
+  for (const int i : object) {
+    const int position = anchored.position[i];
+    if (position < 0 || anchored.hidden[position] != 0) continue;
+    all.push_back(anchored.points[position]);
+    if (anchored.on_edge[position] == 0) inner.push_back(anchored.points[position]);
+  }
+  return static_cast<int>(inner.size()) >= min_points ? inner : all;
+}
+
+// Where a moving object's points were at the anchor's instant, which is not the scan's.
+void reproject(std::vector<ProjectedPoint>& points, const LidarScan& scan, const CameraModel& camera,
+               const Pose& T_camera_a_lidar_k) {
+  std::vector<ProjectedPoint> moved;
+  for (ProjectedPoint point : points) {
+    const Eigen::Vector3d p = T_camera_a_lidar_k * scan.points[point.index].cast<double>();
+    const auto pixel = project(camera, p);
+    if (!pixel) continue;
+    point.u = static_cast<float>(pixel->x());
+    point.v = static_cast<float>(pixel->y());
+    moved.push_back(point);
+  }
+  points = std::move(moved);
+}
+
+void add_static_points(PointTracks& tracks, const AnchoredScan& anchored,
+                       const std::vector<Candidate>& candidates, const LidarScan& scan,
+                       const cv::Mat& texture, const StaticPointOptions& options) {
+  std::vector<std::uint8_t> unreliable(anchored.points.size()), candidate(anchored.points.size(), 0);
+  for (std::size_t i = 0; i < unreliable.size(); ++i)
+    unreliable[i] = anchored.hidden[i] | anchored.on_edge[i];
+  for (const Candidate& object : candidates)
+    for (const int i : object.points)
+      if (anchored.position[i] >= 0) candidate[anchored.position[i]] = 1;
+  const auto chosen = choose_static_points(
+      {anchored.points, unreliable, candidate, texture.size(), texture}, options);
+  add_points(tracks, anchored.points, chosen, scan, kStaticOwner);
+}
+
+// Prediction of all followed points; where one leaves the lens model, its last position.
+std::vector<cv::Point2f> predict_pixels(const CameraView& view,
+                                        const Pose& T_camera_t_lidar_k, double dt) {
+  std::vector<Pose> of_owner{T_camera_t_lidar_k};
+  for (const Candidate& candidate : view.candidates)
+    of_owner.push_back(T_camera_t_lidar_k * exp_se3(Twist(candidate.rate * dt)));
+  constexpr double kFarOutside = -1e4;
+  std::vector<cv::Point2f> pixels(view.points.size());
+  for (std::size_t i = 0; i < pixels.size(); ++i) {
+    const auto pixel = project(view.camera.model,
+                               of_owner[view.points.owner[i] + 1] * view.points.point[i], kFarOutside);
+    pixels[i] = pixel ? cv::Point2f(static_cast<float>(pixel->x()), static_cast<float>(pixel->y()))
+                      : view.points.last_px[i];
+  }
+  return pixels;
+}
+
+Box2d box_of(const CameraModel& camera, const LidarScan& scan, const std::vector<int>& points,
+             const Pose& T_camera_t_lidar_k) {
+  Box2d box{1e9, 1e9, -1e9, -1e9};
+  for (const int i : points) {
+    const auto pixel = project(camera, T_camera_t_lidar_k * scan.points[i].cast<double>());
+    if (!pixel) continue;
+    box.left = std::min(box.left, pixel->x());
+    box.right = std::max(box.right, pixel->x());
+    box.top = std::min(box.top, pixel->y());
+    box.bottom = std::max(box.bottom, pixel->y());
+  }
+  return box.right < box.left ? Box2d{} : box;
+}
+
+// The points were put on the anchor picture under `rate`; what was found is the motion since then, so
+// the part between scan and anchor follows from it at constant velocity.
+Pose over_whole_interval(const Pose& T_mov, const Twist& rate, double anchor_dt, double dt) {
+  if (anchor_dt == 0 || dt - anchor_dt <= 0) return T_mov;
+  const Pose since_anchor = T_mov * exp_se3(Twist(rate * anchor_dt)).inverse();
+  return exp_se3(Twist(log_se3(since_anchor) * (dt / (dt - anchor_dt))));
+}
+
+}  // namespace
+
+void start_view(CameraView& view, std::shared_ptr<const Picture> anchor, const KeyScanView& key,
+                const Pose& T_lidar_a_lidar_k, const std::map<int, KnownMotion>& known,
+                bool with_static_points, Detector& detector, const Config& config) {
+  const LidarScan& scan = key.scan;
+  const CameraModel& camera = view.camera.model;
+  const Pose T_camera_lidar_a =
+      T_camera_lidar_of(view.camera, scan.T_vehicle_lidar) * T_lidar_a_lidar_k;
+  const AnchoredScan anchored = anchor_scan(scan, camera, T_camera_lidar_a);
+  view.candidates = find_candidates(view, *anchor, key, T_camera_lidar_a, visible_points(anchored), known,
+                                    detector, config);
+  view.points = {};
+  view.anchor_dt = seconds_between(scan.stamp, anchor->instant);
+  if (std::abs(view.anchor_dt) * 1e3 <= config.timing.pair_tolerance_ms) view.anchor_dt = 0;
+
+  cv::Mat texture;
+  cv::cornerMinEigenVal(anchor->image.gray, texture, 5);
+  for (std::size_t i = 0; i < view.candidates.size(); ++i) {
+    const Candidate& candidate = view.candidates[i];
+    auto points = followable_points(anchored, candidate.points, 2 * config.object_motion.min_points);
+    if (view.anchor_dt != 0 && !candidate.rate.isZero())
+      reproject(points, scan, camera,
+                T_camera_lidar_a * exp_se3(Twist(candidate.rate * view.anchor_dt)));
+    const PointTrackOptions& options = config.point_tracks;
+    const auto chosen =
+        choose_spread(points, texture, options.max_points_per_object, options.border_px);
+    add_points(view.points, points, chosen, scan, static_cast<int>(i));
+  }
+  if (with_static_points)
+    add_static_points(view.points, anchored, view.candidates, scan, texture, config.static_points);
+  view.anchor = std::move(anchor);
+}
+
+void follow_view(CameraView& view, const Picture& picture, const LidarScan& key_scan,
+                 const Pose& T_lidar_t_lidar_k_predicted, const Config& config) {
+  const Pose T_camera_t_lidar_k =
+      T_camera_lidar_of(view.camera, key_scan.T_vehicle_lidar) * T_lidar_t_lidar_k_predicted;
+  const double dt = seconds_between(key_scan.stamp, picture.instant);
+  follow_points(view.points, view.anchor->pyramid, picture.pyramid,
+                predict_pixels(view, T_camera_t_lidar_k, dt), config.klt);
+}
+
+std::vector<ObjectMotion> estimate_motions(CameraView& view, const Picture& picture,
+                                           const LidarScan& key_scan,
+                                           const Pose& T_lidar_t_lidar_k, const Config& config) {
+  MotionQuery query;
+  query.camera = view.camera.model;
+  query.T_camera_lidar = T_camera_lidar_of(view.camera, key_scan.T_vehicle_lidar);
+  query.T_lidar_t_lidar_k = T_lidar_t_lidar_k;
+  query.dt = seconds_between(key_scan.stamp, picture.instant);
+
+  std::vector<ObjectMotion> motions(view.candidates.size());
+  tbb::parallel_for(std::size_t{0}, motions.size(), [&](std::size_t i) {
+    Candidate& candidate = view.candidates[i];
+    MotionQuery own = query;
+    own.T_mov_predicted = exp_se3(Twist(candidate.rate * query.dt));
+    ObjectMotion& motion = motions[i];
+    motion = estimate_object_motion(correspondences_of(view.points, static_cast<int>(i)), own,
+                                    config.object_motion);
+    motion.centroid_lidar_k = centroid_of(key_scan, candidate.points);
+    if (motion.status == MotionStatus::moving) {
+      const Pose T_mov =
+          over_whole_interval(motion.T_mov, candidate.rate, view.anchor_dt, query.dt);
+      set_motion(motion, T_lidar_t_lidar_k * T_mov, own);
+      candidate.rate = log_se3(T_mov) / query.dt;
+    }
+    motion.track_id = candidate.track_id;
+    motion.class_name = candidate.detection.class_name;
+    motion.camera_label = view.camera.label;
+    motion.points = candidate.points;
+    motion.box = box_of(query.camera, key_scan, candidate.points,
+                        query.T_camera_lidar * motion.T_lidar_t_lidar_k);
+  });
+  return motions;
+}
+
+}  // namespace lidar_upsampling

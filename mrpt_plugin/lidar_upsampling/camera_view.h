@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the lidar_upsampling authors
+#pragma once
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "lidar_upsampling/config.h"
+#include "lidar_upsampling/objects/detector.h"
+#include "lidar_upsampling/objects/point_tracks.h"
+#include "lidar_upsampling/objects/scene_segments.h"
+#include "lidar_upsampling/objects/tracks.h"
+#include "lidar_upsampling/se3.h"
+#include "lidar_upsampling/types.h"
+
+namespace lidar_upsampling {
+
+/// A picture, its instant on the LiDAR's clock, and what is computed from it once.
+struct Picture {
+  CameraImage image;
+  Stamp instant;
+  ImagePyramid pyramid;
+};
+
+/// An object candidate of the key scan on one camera.
+struct Candidate {
+  Detection detection;
+  int track_id = -1;
+  std::vector<int> points;      ///< indices into the key scan, followed or not
+  Twist rate = Twist::Zero();   ///< motion over ground per second, in the lidar frame at k
+};
+
+/// What is known of an object before it is looked at: over ground, in a frame at rest.
+struct KnownMotion {
+  Stamp stamp;
+  Eigen::Vector3d velocity_at_rest = Eigen::Vector3d::Zero();  ///< m/s
+  double yaw_rate = 0;                                         ///< rad/s
+};
+
+/// The key scan as the steps of every camera need it.
+struct KeyScanView {
+  const LidarScan& scan;
+  const SceneSegments& segments;
+  Pose T_rest_lidar_k = Pose::Identity();  ///< lidar frame at k in a frame at rest
+};
+
+/// @brief One camera's memory: its last picture, and what is followed on it since the key scan.
+struct CameraView {
+  CameraView(Camera camera_in, const TrackerOptions& options, int& next_track_id)
+      : camera(std::move(camera_in)), tracker(options, next_track_id) {}
+
+  Camera camera;
+  Tracker tracker;
+  std::shared_ptr<const Picture> last;
+  std::shared_ptr<const Picture> anchor;  ///< where the key scan's points were put; null: nowhere yet
+  double anchor_dt = 0;                   ///< s from the key scan to the anchor
+  std::vector<Candidate> candidates;
+  PointTracks points;
+};
+
+/// @brief Puts the key scan on the anchor picture: object candidates found, tracked from scan to scan,
+/// their points and static ones chosen to be followed (paper, "Object Detection and Tracking", "Defining
+/// Object Points and Tracking Them").
+/// @param T_lidar_a_lidar_k ego-motion from the key scan to the anchor's instant.
+/// @param known motions by track id.
+/// @param with_static_points whether static ones are needed, for the camera's own ego-motion.
+void start_view(CameraView& view, std::shared_ptr<const Picture> anchor, const KeyScanView& key,
+                const Pose& T_lidar_a_lidar_k, const std::map<int, KnownMotion>& known,
+                bool with_static_points, Detector& detector, const Config& config);
+
+/// @brief Follows all points to the next picture.
+/// @param T_lidar_t_lidar_k_predicted ego-motion from the key scan to the picture's instant.
+void follow_view(CameraView& view, const Picture& picture, const LidarScan& key_scan,
+                 const Pose& T_lidar_t_lidar_k_predicted, const Config& config);
+
+/// @brief Motion of every candidate at the picture's instant; sets their rates for the next picture.
+[[nodiscard]] std::vector<ObjectMotion> estimate_motions(CameraView& view, const Picture& picture,
+                                                         const LidarScan& key_scan,
+                                                         const Pose& T_lidar_t_lidar_k,
+                                                         const Config& config);
+
+}  // namespace lidar_upsampling

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the lidar_upsampling authors
+#include "lidar_upsampling/ego/camera_ego.h"
+
+#include <stdexcept>
+#include <string>
+
+#include "lidar_upsampling/vision/refine_pose.h"
+
+namespace lidar_upsampling {
+
+namespace {
+
+void check_options(const CameraEgoOptions& options) {
+  for (const double sigma :
+       {options.forward_sigma_m, options.sideways_sigma_m, options.vertical_sigma_m,
+        options.tilt_sigma_rad, options.yaw_sigma_rad, options.max_step_m, options.max_turn_rad}) {
+    if (!(sigma > 0)) {
+      throw std::invalid_argument("camera ego-motion: sigmas and limits must be positive, one is " +
+                                  std::to_string(sigma));
+    }
+  }
+}
+
+/// Takes a left increment (w, t) in the camera frame to the lidar frame's, to first order.
+Matrix6d lidar_from_camera_increment(const Pose& T_camera_lidar) {
+  const Eigen::Matrix3d R_lidar_camera = T_camera_lidar.linear().transpose();
+  Matrix6d J = Matrix6d::Zero();
+  J.topLeftCorner<3, 3>() = R_lidar_camera;
+  J.bottomLeftCorner<3, 3>() = -R_lidar_camera * skew(T_camera_lidar.translation());
+  J.bottomRightCorner<3, 3>() = R_lidar_camera;
+  return J;
+}
+
+PosePrior vehicle_prior(const Pose& T_camera_lidar, const Pose& guess,
+                        const CameraEgoOptions& options) {
+  Twist sigmas;
+  sigmas << options.tilt_sigma_rad, options.tilt_sigma_rad, options.yaw_sigma_rad,
+      options.forward_sigma_m, options.sideways_sigma_m, options.vertical_sigma_m;
+  PosePrior prior;
+  prior.T_mean = T_camera_lidar * guess;
+  prior.sqrt_information =
+      sigmas.cwiseInverse().asDiagonal() * lidar_from_camera_increment(T_camera_lidar);
+  return prior;
+}
+
+}  // namespace
+
+std::optional<CameraEgo> estimate_camera_ego(const std::vector<Correspondence>& correspondences,
+                                             const CameraModel& model, const Pose& T_camera_lidar,
+                                             const CameraEgoOptions& options, const Pose& guess) {
+  check_options(options);
+  if (static_cast<int>(correspondences.size()) < options.min_correspondences) {
+    return std::nullopt;
+  }
+  const auto free =
+      estimate_absolute_pose(correspondences, model, options.pose, T_camera_lidar * guess);
+  if (!free) {
+    return std::nullopt;
+  }
+  const auto refined =
+      refine_absolute_pose(correspondences, model, free->T_camera_source, options.pose,
+                           vehicle_prior(T_camera_lidar, guess, options));
+  // With a prior the refinement asks for no number of inliers: we do.
+  if (!refined || refined->num_inliers < options.min_correspondences / 2 ||
+      refined->num_inliers <
+          options.pose.min_inlier_ratio * static_cast<double>(correspondences.size())) {
+    return std::nullopt;
+  }
+  CameraEgo ego;
+  ego.T_lidar_t_lidar_k = T_camera_lidar.inverse() * refined->T_camera_source;
+  const Pose off_guess = ego.T_lidar_t_lidar_k * guess.inverse();
+  if (off_guess.translation().norm() > options.max_step_m ||
+      rotation_angle(off_guess) > options.max_turn_rad) {
+    return std::nullopt;
+  }
+  ego.num_inliers = refined->num_inliers;
+  ego.rmse_px = refined->rmse_px;
+  const Matrix6d J = lidar_from_camera_increment(T_camera_lidar);
+  ego.covariance = J * refined->covariance * J.transpose();
+  return ego;
+}
+
+}  // namespace lidar_upsampling

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the lidar_upsampling authors
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "lidar_upsampling/ego/se3.h"
+#include "lidar_upsampling/types.h"
+#include "lidar_upsampling/vision/absolute_pose.h"
+
+namespace lidar_upsampling {
+
+/// How far a vehicle's motion may lie from the guess (one sigma, in the lidar frame, over a tenth
+/// of a second): wide where it drives and steers, narrow where it cannot go.
+struct CameraEgoOptions {
+  AbsolutePoseOptions pose;
+  double forward_sigma_m = 0.3;
+  double sideways_sigma_m = 0.05;
+  double vertical_sigma_m = 0.02;
+  double tilt_sigma_rad = 0.005;  ///< roll and pitch
+  double yaw_sigma_rad = 0.03;
+  int min_correspondences = 20;
+  double max_step_m = 10;  ///< from the guess; further is no motion of a vehicle
+  double max_turn_rad = 0.3;
+};
+
+/// The vehicle's motion as the static scene shows it.
+struct CameraEgo {
+  Pose T_lidar_t_lidar_k = Pose::Identity();
+  int num_inliers = 0;
+  double rmse_px = 0;  ///< of the inliers
+  Matrix6d covariance =
+      Matrix6d::Zero();  ///< of a Twist applied on the left, in the lidar frame at t
+};
+
+/// @brief Ego-motion from static points of the key scan and their pixels on image t: P3P in MLESAC,
+/// then refinement with a vehicle's soft prior around the guess.
+/// @param correspondences points in the lidar frame at k, pixels as taken; up to half may be wrong.
+/// @param guess T_lidar_t_lidar_k, e.g. at constant velocity; the identity if nothing is known.
+/// @return none: too few, no consensus, or a motion that no vehicle makes.
+/// @throw std::invalid_argument options out of range, or as estimate_absolute_pose().
+[[nodiscard]] std::optional<CameraEgo> estimate_camera_ego(
+    const std::vector<Correspondence>& correspondences, const CameraModel& model,
+    const Pose& T_camera_lidar, const CameraEgoOptions& options, const Pose& guess);
+
+}  // namespace lidar_upsampling

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the lidar_upsampling authors
+#include "lidar_upsampling/ego/ego_motion.h"
+
+#include <array>
+#include <stdexcept>
+#include <utility>
+
+namespace lidar_upsampling {
+
+namespace {
+
+constexpr std::array<std::pair<EgoSource, const char*>, 6> kSourceNames{{
+    {EgoSource::automatic, "auto"},
+    {EgoSource::poses, "poses"},
+    {EgoSource::odometry, "odometry"},
+    {EgoSource::gnss, "gnss"},
+    {EgoSource::camera, "camera"},
+    {EgoSource::none, "none"},
+}};
+
+InterpolationLimits limits_of(const EgoMotionOptions& options) {
+  if (options.max_interpolation_gap_s <= 0 || options.max_extrapolation_s < 0 ||
+      options.gnss_min_step_m <= 0) {
+    throw std::invalid_argument(
+        "ego-motion: max_interpolation_gap_s (" + std::to_string(options.max_interpolation_gap_s) +
+        ") and gnss_min_step_m (" + std::to_string(options.gnss_min_step_m) +
+        ") must be positive, max_extrapolation_s (" + std::to_string(options.max_extrapolation_s) +
+        ") must not be negative");
+  }
+  return {options.max_interpolation_gap_s, options.max_extrapolation_s};
+}
+
+EgoStep step_between(const TrajectoryPose& from, const TrajectoryPose& to) {
+  return {to.T_world_vehicle.inverse() * from.T_world_vehicle,
+          from.extrapolated || to.extrapolated};
+}
+
+std::optional<EgoStep> step_on(const Trajectory& trajectory, Stamp from, Stamp to) {
+  const auto pose_from = trajectory.at(from);
+  const auto pose_to = trajectory.at(to);
+  if (!pose_from || !pose_to) {
+    return std::nullopt;
+  }
+  return step_between(*pose_from, *pose_to);
+}
+
+}  // namespace
+
+EgoSource ego_source_from_string(const std::string& name) {
+  std::string choices;
+  for (const auto& [source, known] : kSourceNames) {
+    if (name == known) {
+      return source;
+    }
+    choices += (choices.empty() ? "" : ", ") + std::string(known);
+  }
+  throw std::invalid_argument("ego-motion source '" + name + "' is unknown; choose one of " +
+                              choices);
+}
+
+const char* to_string(EgoSource source) {
+  for (const auto& [known, name] : kSourceNames) {
+    if (source == known) {
+      return name;
+    }
+  }
+  return "unknown";
+}
+
+EgoMotion::EgoMotion(const EgoMotionOptions& options)
+    : options_(options),
+      poses_(limits_of(options)),
+      odometry_(limits_of(options)),
+      gnss_(limits_of(options), options.gnss_min_step_m) {}
+
+void EgoMotion::add_pose(const PoseSample& sample) { poses_.add(sample); }
+
+void EgoMotion::add_odometry(const PoseSample& sample) { odometry_.add(sample); }
+
+void EgoMotion::add_gnss(const GnssSample& sample) { gnss_.add(sample); }
+
+EgoSource EgoMotion::source() const {
+  if (options_.source != EgoSource::automatic) {
+    return options_.source;
+  }
+  if (poses_.size() >= 2) {
+    return EgoSource::poses;
+  }
+  if (odometry_.size() >= 2) {
+    return EgoSource::odometry;
+  }
+  return gnss_.size() >= 2 ? EgoSource::gnss : EgoSource::camera;
+}
+
+std::optional<EgoStep> EgoMotion::step(Stamp from, Stamp to) const {
+  switch (source()) {
+    case EgoSource::poses:
+      return step_on(poses_, from, to);
+    case EgoSource::odometry:
+      return step_on(odometry_, from, to);
+    case EgoSource::gnss: {
+      const auto poses = gnss_.at(from, to);
+      return poses ? std::make_optional(step_between(poses->first, poses->second)) : std::nullopt;
+    }
+    case EgoSource::none:
+      return EgoStep{};
+    case EgoSource::automatic:
+    case EgoSource::camera:
+      break;
+  }
+  return std::nullopt;
+}
+
+void EgoMotion::forget_before(Stamp stamp) {
+  poses_.forget_before(stamp);
+  odometry_.forget_before(stamp);
+  gnss_.forget_before(stamp);
+}
+
+}  // namespace lidar_upsampling

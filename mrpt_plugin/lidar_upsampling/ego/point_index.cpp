@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the lidar_upsampling authors
+#include "lidar_upsampling/ego/point_index.h"
+
+#include <nanoflann.hpp>
+
+namespace lidar_upsampling {
+
+struct PointIndex::Tree {
+  // What nanoflann asks of a data set; the names are its own.
+  struct Cloud {
+    std::vector<Eigen::Vector3f> points;
+
+    [[nodiscard]] std::size_t kdtree_get_point_count() const { return points.size(); }
+    [[nodiscard]] float kdtree_get_pt(std::size_t index, std::size_t dim) const {
+      return points[index][static_cast<int>(dim)];
+    }
+    template <class Box>
+    bool kdtree_get_bbox(Box& /*box*/) const {
+      return false;
+    }
+  };
+  using Metric = nanoflann::L2_Simple_Adaptor<float, Cloud>;
+
+  explicit Tree(std::vector<Eigen::Vector3f> points)
+      : cloud{std::move(points)}, index(3, cloud, {/*leaf_max_size=*/16}) {}
+
+  Cloud cloud;
+  nanoflann::KDTreeSingleIndexAdaptor<Metric, Cloud, 3> index;
+};
+
+PointIndex::PointIndex(std::vector<Eigen::Vector3f> points)
+    : tree_(std::make_unique<Tree>(std::move(points))) {}
+PointIndex::~PointIndex() = default;
+PointIndex::PointIndex(PointIndex&&) noexcept = default;
+PointIndex& PointIndex::operator=(PointIndex&&) noexcept = default;
+
+const std::vector<Eigen::Vector3f>& PointIndex::points() const { return tree_->cloud.points; }
+
+PointIndex::Neighbor PointIndex::nearest(const Eigen::Vector3f& query) const {
+  std::uint32_t index = 0;
+  Neighbor result;
+  if (tree_->index.knnSearch(query.data(), 1, &index, &result.sq_distance) == 1) {
+    result.index = static_cast<int>(index);
+  }
+  return result;
+}
+
+void PointIndex::nearest(const Eigen::Vector3f& query, int k,
+                         std::vector<Neighbor>& neighbors) const {
+  std::vector<std::uint32_t> indices(k);
+  std::vector<float> sq_distances(k);
+  const std::size_t found =
+      tree_->index.knnSearch(query.data(), k, indices.data(), sq_distances.data());
+  neighbors.resize(found);
+  for (std::size_t i = 0; i < found; ++i) {
+    neighbors[i] = {static_cast<int>(indices[i]), sq_distances[i]};
+  }
+}
+
+}  // namespace lidar_upsampling

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the lidar_upsampling authors
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "lidar_upsampling/types.h"
+
+namespace lidar_upsampling {
+
+/// @brief A k-d tree over points that it owns. Queries are safe from any number of threads.
+class PointIndex {
+ public:
+  struct Neighbor {
+    int index = -1;  ///< into points(); -1: there is none
+    float sq_distance = 0;
+  };
+
+  explicit PointIndex(std::vector<Eigen::Vector3f> points);
+  ~PointIndex();
+  PointIndex(PointIndex&&) noexcept;
+  PointIndex& operator=(PointIndex&&) noexcept;
+
+  [[nodiscard]] const std::vector<Eigen::Vector3f>& points() const;
+
+  [[nodiscard]] Neighbor nearest(const Eigen::Vector3f& query) const;
+
+  /// Fills `neighbors` with the k nearest (fewer if there are not so many), nearest first.
+  void nearest(const Eigen::Vector3f& query, int k, std::vector<Neighbor>& neighbors) const;
+
+ private:
+  struct Tree;
+  std::unique_ptr<Tree> tree_;
+};
+
+}  // namespace lidar_upsampling

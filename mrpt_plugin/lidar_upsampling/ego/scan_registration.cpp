@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the lidar_upsampling authors
+#include "lidar_upsampling/ego/scan_registration.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+#include <tbb/parallel_invoke.h>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+
+#include "lidar_upsampling/ego/surface.h"
+
+namespace lidar_upsampling {
+
+namespace {
+
+constexpr int kMinCorrespondences = 60;
+// A direction counts as free if this share of the points would hold it: the normals' own noise
+// does.
+constexpr double kMinHold = 0.002;
+
+/// A source point on the plane of its nearest target point; if it has one.
+struct Match {
+  Twist jacobian;
+  double residual = 0;
+  bool valid = false;
+};
+
+std::vector<Eigen::Vector3f> thinned(const std::vector<Eigen::Vector3f>& points,
+                                     const RegistrationOptions& options) {
+  std::vector<Eigen::Vector3f> kept;
+  kept.reserve(points.size());
+  const double sq_min = options.min_range_m * options.min_range_m;
+  const double sq_max = options.max_range_m * options.max_range_m;
+  std::copy_if(points.begin(), points.end(), std::back_inserter(kept), [&](const auto& point) {
+    const double sq_range = point.squaredNorm();
+    return sq_range > sq_min && sq_range < sq_max;
+  });
+  return voxel_downsampled(kept, options.voxel_m);
+}
+
+std::vector<Eigen::Vector3f> every_nth(std::vector<Eigen::Vector3f> points, int max_points) {
+  const double stride = static_cast<double>(points.size()) / max_points;
+  if (stride > 1) {
+    for (int i = 0; i < max_points; ++i) {
+      points[i] = points[static_cast<std::size_t>(i * stride)];
+    }
+    points.resize(max_points);
+  }
+  return points;
+}
+
+Match match_point(const Eigen::Vector3f& point, const Surface& target, double max_distance) {
+  Match match;
+  const auto nearest = target.index.nearest(point);
+  if (nearest.index < 0 || nearest.sq_distance > max_distance * max_distance) {
+    return match;
+  }
+  const Eigen::Vector3d normal = target.normals[nearest.index].cast<double>();
+  if (normal.isZero()) {
+    return match;
+  }
+  const Eigen::Vector3d p = point.cast<double>();
+  match.residual = normal.dot(p - target.index.points()[nearest.index].cast<double>());
+  match.jacobian << p.cross(normal), normal;
+  match.valid = true;
+  return match;
+}
+
+void match_all(const std::vector<Eigen::Vector3f>& source, const Surface& target,
+               const Pose& T_target_source, double max_distance, std::vector<Match>& matches) {
+  const Eigen::Isometry3f T = T_target_source.cast<float>();
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, source.size(), 256), [&](const auto& range) {
+    for (std::size_t i = range.begin(); i < range.end(); ++i) {
+      matches[i] = match_point(T * source[i], target, max_distance);
+    }
+  });
+}
+
+struct NormalEquations {
+  Matrix6d H = Matrix6d::Zero();
+  Twist b = Twist::Zero();
+  int num_matches = 0;
+  int num_inliers = 0;
+  double sq_residuals = 0;
+};
+
+NormalEquations accumulate(const std::vector<Match>& matches, double scale, double inlier_m) {
+  NormalEquations sum;
+  for (const Match& match : matches) {
+    if (!match.valid) {
+      continue;
+    }
+    const double sq_scale = scale * scale;
+    const double root = sq_scale / (sq_scale + match.residual * match.residual);
+    sum.H.noalias() += root * root * match.jacobian * match.jacobian.transpose();
+    sum.b -= root * root * match.residual * match.jacobian;
+    ++sum.num_matches;
+    if (std::abs(match.residual) < inlier_m) {
+      ++sum.num_inliers;
+      sum.sq_residuals += match.residual * match.residual;
+    }
+  }
+  return sum;
+}
+
+/// The covariance, or none if some direction is free.
+std::optional<Matrix6d> covariance_of(const Matrix6d& H, int num_matches, double rmse) {
+  const double variance = std::max(1e-4, rmse * rmse);
+  const Eigen::SelfAdjointEigenSolver<Matrix6d> solver(H);
+  if (!(solver.eigenvalues()[0] > kMinHold * num_matches)) {
+    return std::nullopt;
+  }
+  return variance * solver.eigenvectors() * solver.eigenvalues().cwiseInverse().asDiagonal() *
+         solver.eigenvectors().transpose();
+}
+
+std::optional<Registration> iterate(const std::vector<Eigen::Vector3f>& source,
+                                    const Surface& target, const Pose& guess,
+                                    const RegistrationOptions& options) {
+  Registration result;
+  result.T_target_source = guess;
+  std::vector<Match> matches(source.size());
+  NormalEquations sum;
+  double scale = 5 * options.kernel_m;
+  for (int i = 0; i < options.max_iterations; ++i) {
+    result.num_iterations = i + 1;
+    match_all(source, target, result.T_target_source, options.max_correspondence_m, matches);
+    sum = accumulate(matches, scale, 3 * options.kernel_m);
+    if (sum.num_matches < kMinCorrespondences) {
+      return std::nullopt;
+    }
+    const Twist step = sum.H.ldlt().solve(sum.b);
+    if (!step.allFinite()) {
+      return std::nullopt;
+    }
+    result.T_target_source = renormalized(exp_se3(step) * result.T_target_source);
+    const bool narrow = scale <= options.kernel_m;
+    if (narrow && step.head<3>().norm() < 5e-5 && step.tail<3>().norm() < 5e-4) {
+      break;
+    }
+    scale = std::max(options.kernel_m, 0.6 * scale);
+  }
+  result.inlier_share = static_cast<double>(sum.num_inliers) / sum.num_matches;
+  result.rmse_m = std::sqrt(sum.sq_residuals / std::max(1, sum.num_inliers));
+  const auto covariance = covariance_of(sum.H, sum.num_matches, result.rmse_m);
+  if (!covariance || result.inlier_share < options.min_inlier_share) {
+    return std::nullopt;
+  }
+  result.covariance = *covariance;
+  return result;
+}
+
+}  // namespace
+
+std::optional<Registration> register_scans(const std::vector<Eigen::Vector3f>& points_source,
+                                           const std::vector<Eigen::Vector3f>& points_target,
+                                           const Pose& T_target_source_guess,
+                                           const RegistrationOptions& options) {
+  std::vector<Eigen::Vector3f> source, target;
+  tbb::parallel_invoke(
+      [&] { source = every_nth(thinned(points_source, options), options.max_points); },
+      [&] { target = thinned(points_target, options); });
+  if (source.size() < kMinCorrespondences || target.size() < kMinCorrespondences) {
+    return std::nullopt;
+  }
+  const Surface surface = make_surface(std::move(target));
+  return iterate(source, surface, T_target_source_guess, options);
+}
+
+}  // namespace lidar_upsampling

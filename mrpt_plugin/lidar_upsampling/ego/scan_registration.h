@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the lidar_upsampling authors
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "lidar_upsampling/ego/se3.h"
+#include "lidar_upsampling/types.h"
+
+namespace lidar_upsampling {
+
+struct RegistrationOptions {
+  double voxel_m = 0.5;      ///< both scans are thinned to one point per cube
+  int max_points = 5000;     ///< of the source, after thinning
+  double min_range_m = 2.5;  ///< nearer points are the vehicle itself
+  double max_range_m = 80;
+  double max_correspondence_m = 1.5;
+  double kernel_m = 0.1;          ///< Geman-McClure scale at the end; starts five times as wide
+  double min_inlier_share = 0.4;  ///< points nearer than three kernel scales to their plane
+  int max_iterations = 30;
+};
+
+/// The rigid motion between two scans, with the evidence.
+struct Registration {
+  Pose T_target_source = Pose::Identity();
+  double inlier_share = 0;                 ///< of the source points that found a plane
+  double rmse_m = 0;                       ///< point to plane, of the inliers
+  Matrix6d covariance = Matrix6d::Zero();  ///< of a Twist applied on the left, in the target frame
+  int num_iterations = 0;
+};
+
+/// @brief Point-to-plane ICP with a robust kernel that narrows: what moves on its own is left out.
+/// Deterministic for any number of threads.
+/// @param points_source, points_target in metres, each in its own frame.
+/// @param T_target_source_guess right to about a metre and a few degrees.
+/// @return none: too few points, no agreement, or a direction that the scene leaves free (to 0.2
+/// m).
+[[nodiscard]] std::optional<Registration> register_scans(
+    const std::vector<Eigen::Vector3f>& points_source,
+    const std::vector<Eigen::Vector3f>& points_target, const Pose& T_target_source_guess,
+    const RegistrationOptions& options = {});
+
+}  // namespace lidar_upsampling

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the lidar_upsampling authors
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "lidar_upsampling/types.h"
+
+namespace lidar_upsampling {
+
+/// One known pose of the vehicle.
+struct PoseSample {
+  Stamp stamp;
+  Pose T_world_vehicle = Pose::Identity();
+};
+
+struct InterpolationLimits {
+  double max_gap_s = 1.0;             ///< samples further apart are not joined
+  double max_extrapolation_s = 0.25;  ///< outside the samples, at the last (first) velocity
+};
+
+enum class Reach { none, inside, outside };
+
+/// @brief Whether a stamp lies between samples, or just outside.
+/// @param stamps ascending, unique.
+[[nodiscard]] Reach reach_of(const std::vector<Stamp>& stamps, Stamp stamp,
+                             const InterpolationLimits& limits);
+
+struct TrajectoryPose {
+  Pose T_world_vehicle = Pose::Identity();
+  bool extrapolated = false;
+};
+
+/// @brief Poses in time order, whatever order they come in.
+class Trajectory {
+ public:
+  explicit Trajectory(const InterpolationLimits& limits = {});
+
+  /// A second sample with the same stamp replaces the first.
+  /// @throw std::invalid_argument the pose has a number that is not finite.
+  void add(const PoseSample& sample);
+
+  /// @return linear in translation, slerp in rotation; constant body twist outside the samples,
+  /// from the last (first) two that lie a tenth of a second apart. None where the limits forbid it.
+  [[nodiscard]] std::optional<TrajectoryPose> at(Stamp stamp) const;
+
+  /// Drops samples that no query from `stamp` on needs.
+  void forget_before(Stamp stamp);
+
+  [[nodiscard]] std::size_t size() const { return stamps_.size(); }
+
+ private:
+  [[nodiscard]] std::optional<Pose> extrapolate(Stamp stamp) const;
+
+  InterpolationLimits limits_;
+  std::vector<Stamp> stamps_;
+  std::vector<Pose> T_world_vehicle_;
+};
+
+}  // namespace lidar_upsampling

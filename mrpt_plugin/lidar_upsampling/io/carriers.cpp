@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the lidar_upsampling authors
+#include "lidar_upsampling/io/carriers.h"
+
+#include <mrpt/io/lazy_load_path.h>
+#include <mrpt/system/datetime.h>
+#include <mrpt/version.h>
+
+#include <array>
+#include <filesystem>
+#include <stdexcept>
+#include <utility>
+
+#include "lidar_upsampling/io/images.h"
+#include "lidar_upsampling/io/mrpt_errors.h"
+#include "lidar_upsampling/io/point_cloud.h"
+#include "lidar_upsampling/io/range_scan_3d.h"
+#include "lidar_upsampling/io/spinning_scans.h"
+
+namespace lidar_upsampling {
+namespace {
+
+using mrpt::obs::CObservation3DRangeScan;
+using mrpt::obs::CObservationPointCloud;
+using mrpt::obs::CObservationRotatingScan;
+using mrpt::obs::CObservationVelodyneScan;
+
+constexpr std::array<std::pair<Carrier, const char*>, 4> kNames{
+    {{Carrier::automatic, "auto"},
+     {Carrier::range_scan_3d, "3drangescan"},
+     {Carrier::point_cloud, "pointcloud"},
+     {Carrier::same, "same"}}};
+
+// External files that the observation refers to.
+std::vector<std::string> external_files(const mrpt::obs::CObservation& observation) {
+  std::vector<std::string> files;
+  if (const auto* const cloud = dynamic_cast<const CObservationPointCloud*>(&observation)) {
+    if (cloud->isExternallyStored()) {
+      files.push_back(mrpt::io::lazy_load_absolute_path(cloud->getExternalStorageFile()));
+    }
+  } else if (const auto* const scan = dynamic_cast<const CObservation3DRangeScan*>(&observation)) {
+    if (scan->points3D_isExternallyStored()) {
+      files.push_back(scan->points3D_getExternalStorageFileAbsolutePath());
+    }
+    if (scan->rangeImage_isExternallyStored()) {
+      files.push_back(scan->rangeImage_getExternalStorageFileAbsolutePath(""));
+    }
+    if (scan->hasIntensityImage && scan->intensityImage.isExternallyStored()) {
+      files.push_back(scan->intensityImage.getExternalStorageFileAbsolutePath());
+    }
+  }
+  return files;
+}
+
+// Loads external storage, and unloads it however the scope is left.
+class LoadedObservation {
+ public:
+  explicit LoadedObservation(const mrpt::obs::CObservation& observation)
+      : observation_(observation) {
+    // Some classes load nothing from a missing file, without a word.
+    const std::vector<std::string> files = external_files(observation);
+    for (const std::string& file : files) {
+      if (!std::filesystem::exists(file)) throw std::runtime_error("there is no file " + file);
+    }
+    // Not without need: unload() of later MRPTs erases a Velodyne's embedded points.
+    external_ = !files.empty();
+    if (external_) observation_.load();
+  }
+  ~LoadedObservation() {
+    if (external_) observation_.unload();
+  }
+  LoadedObservation(const LoadedObservation&) = delete;
+  LoadedObservation& operator=(const LoadedObservation&) = delete;
+
+ private:
+  const mrpt::obs::CObservation& observation_;
+  bool external_ = false;
+};
+
+void read_points(mrpt::obs::CObservation& observation, LidarScan& scan) {
+  const LoadedObservation loaded(observation);
+  if (const auto* const cloud = dynamic_cast<const CObservationPointCloud*>(&observation)) {
+    read_point_cloud(*cloud, scan);
+  } else if (const auto* const depth = dynamic_cast<const CObservation3DRangeScan*>(&observation)) {
+    read_range_scan_3d(*depth, scan);
+  } else if (auto* const velodyne = dynamic_cast<CObservationVelodyneScan*>(&observation)) {
+    read_velodyne_scan(*velodyne, scan);
+  } else {
+    read_rotating_scan(dynamic_cast<const CObservationRotatingScan&>(observation), scan);
+  }
+}
+
+Carrier resolve(Carrier carrier, const mrpt::obs::CObservation* like) {
+  if (carrier == Carrier::same && like != nullptr) {
+    if (dynamic_cast<const CObservationPointCloud*>(like) != nullptr) return Carrier::point_cloud;
+    if (dynamic_cast<const CObservation3DRangeScan*>(like) != nullptr) {
+      return Carrier::range_scan_3d;
+    }
+#if MRPT_VERSION < 0x020d02  // from 2.13.2 on its unload() erases points that have no packets
+    if (dynamic_cast<const CObservationVelodyneScan*>(like) != nullptr) return Carrier::same;
+#endif
+  }
+  if (carrier != Carrier::automatic && carrier != Carrier::same) return carrier;
+#if MRPT_VERSION >= 0x020b03
+  return Carrier::point_cloud;
+#else
+  return Carrier::range_scan_3d;
+#endif
+}
+
+template <typename T>
+void check_length(const std::vector<T>& field, const LidarScan& scan, const char* name) {
+  if (field.empty() || field.size() == scan.size()) return;
+  throw std::invalid_argument("scan '" + scan.label + "' has " + std::to_string(scan.size()) +
+                              " points, but " + std::to_string(field.size()) + " values of " +
+                              name);
+}
+
+void check(const LidarScan& scan) {
+  check_length(scan.intensity, scan, "intensity");
+  check_length(scan.ring, scan, "ring");
+  check_length(scan.column, scan, "column");
+  check_length(scan.time_s, scan, "time_s");
+  for (const Eigen::Vector3f& point : scan.points) {
+    if (!point.allFinite()) {
+      throw std::invalid_argument("scan '" + scan.label + "' has a point that is not finite");
+    }
+  }
+}
+
+}  // namespace
+
+Carrier carrier_from_string(const std::string& name) {
+  for (const auto& [carrier, known] : kNames) {
+    if (name == known) return carrier;
+  }
+  throw std::invalid_argument("carrier = '" + name +
+                              "' is unknown; choose auto, 3drangescan, pointcloud or same");
+}
+
+const char* to_string(Carrier carrier) {
+  for (const auto& [known, name] : kNames) {
+    if (carrier == known) return name;
+  }
+  return "?";
+}
+
+bool is_lidar_scan(const mrpt::obs::CObservation& observation) {
+  return dynamic_cast<const CObservationPointCloud*>(&observation) != nullptr ||
+         dynamic_cast<const CObservation3DRangeScan*>(&observation) != nullptr ||
+         dynamic_cast<const CObservationVelodyneScan*>(&observation) != nullptr ||
+         dynamic_cast<const CObservationRotatingScan*>(&observation) != nullptr;
+}
+
+std::optional<LidarScan> scan_from_observation(mrpt::obs::CObservation& observation) {
+  if (!is_lidar_scan(observation)) return std::nullopt;
+  LidarScan scan;
+  scan.stamp = observation.timestamp;
+  scan.label = observation.sensorLabel;
+  scan.T_vehicle_lidar = from_mrpt(mrpt::poses::CPose3D(observation.sensorPose()));
+  try {
+    read_points(observation, scan);
+  } catch (const std::exception& error) {
+    throw std::runtime_error("no points in scan '" + scan.label + "' of " +
+                             mrpt::system::dateTimeToString(scan.stamp) + ": " + one_line(error));
+  }
+  return scan;
+}
+
+mrpt::obs::CObservation::Ptr observation_from_scan(const LidarScan& scan, Carrier carrier,
+                                                   const mrpt::obs::CObservation* like) {
+  check(scan);
+  mrpt::obs::CObservation::Ptr observation;
+  switch (resolve(carrier, like)) {
+    case Carrier::point_cloud:
+      observation = make_point_cloud(scan);
+      break;
+    case Carrier::same:
+      observation = make_velodyne_scan(scan);
+      break;
+    default:
+      observation = make_range_scan_3d(scan);
+  }
+  observation->timestamp = scan.stamp;
+  observation->sensorLabel = scan.label;
+  observation->setSensorPose(to_mrpt(scan.T_vehicle_lidar));
+  return observation;
+}
+
+}  // namespace lidar_upsampling

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the lidar_upsampling authors
+#include "lidar_upsampling/io/ego_samples.h"
+
+#include <mrpt/obs/CActionRobotMovement2D.h>
+#include <mrpt/obs/CActionRobotMovement3D.h>
+#include <mrpt/obs/CObservationOdometry.h>
+#include <mrpt/obs/CObservationRobotPose.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "lidar_upsampling/io/images.h"
+
+namespace lidar_upsampling {
+namespace {
+
+template <typename Sample>
+std::vector<Sample> longest(const std::map<std::string, std::vector<Sample>>& streams) {
+  const auto it = std::max_element(
+      streams.begin(), streams.end(),
+      [](const auto& a, const auto& b) { return a.second.size() < b.second.size(); });
+  return it == streams.end() ? std::vector<Sample>() : it->second;
+}
+
+Stamp gnss_stamp(const mrpt::obs::CObservationGPS& observation) {
+  const Stamp received = observation.originalReceivedTimestamp;
+  if (received == INVALID_TIMESTAMP) return observation.timestamp;
+  if (observation.timestamp == INVALID_TIMESTAMP) return received;
+  const bool agree = std::abs(seconds_between(received, observation.timestamp)) < 1.;
+  return agree ? observation.timestamp : received;
+}
+
+}  // namespace
+
+std::optional<GnssSample> gnss_sample(const mrpt::obs::CObservationGPS& observation) {
+  if (!observation.hasMsgType(mrpt::obs::gnss::NMEA_GGA)) return std::nullopt;
+  // Not getMsgByClassPtr(): its const version does not compile in MRPT 2.5.8.
+  const auto* const gga = dynamic_cast<const mrpt::obs::gnss::Message_NMEA_GGA*>(
+      observation.getMsgByType(mrpt::obs::gnss::NMEA_GGA));
+  if (gga == nullptr || gga->fields.fix_quality == 0) return std::nullopt;
+  GnssSample sample;
+  sample.stamp = gnss_stamp(observation);
+  sample.latitude_deg = gga->fields.latitude_degrees;
+  sample.longitude_deg = gga->fields.longitude_degrees;
+  sample.height_m = gga->fields.altitude_meters + gga->fields.geoidal_distance;
+  sample.antenna_in_vehicle = from_mrpt(observation.sensorPose).translation();
+  return sample;
+}
+
+void EgoSamples::add_observation(const mrpt::obs::CObservation& observation) {
+  const std::string& label = observation.sensorLabel;
+  if (const auto* const pose =
+          dynamic_cast<const mrpt::obs::CObservationRobotPose*>(&observation)) {
+    poses_[label].push_back(
+        {pose->timestamp, from_mrpt(pose->pose.mean) * from_mrpt(pose->sensorPose).inverse()});
+  } else if (const auto* const wheels =
+                 dynamic_cast<const mrpt::obs::CObservationOdometry*>(&observation)) {
+    odometry_[label].push_back(
+        {wheels->timestamp, from_mrpt(mrpt::poses::CPose3D(wheels->odometry))});
+  } else if (const auto* const gps =
+                 dynamic_cast<const mrpt::obs::CObservationGPS*>(&observation)) {
+    if (const auto sample = gnss_sample(*gps)) gnss_[label].push_back(*sample);
+  }
+}
+
+void EgoSamples::add_actions(const mrpt::obs::CActionCollection& actions) {
+  if (const auto planar = actions.getBestMovementEstimation()) {
+    T_world_vehicle_ =
+        T_world_vehicle_ * from_mrpt(mrpt::poses::CPose3D(planar->poseChange->getMeanVal()));
+    any_action_ = true;
+  } else if (const auto spatial = actions.getActionByClass<mrpt::obs::CActionRobotMovement3D>()) {
+    T_world_vehicle_ = T_world_vehicle_ * from_mrpt(spatial->poseChange.mean);
+    any_action_ = true;
+  }
+}
+
+void EgoSamples::add_frame(const mrpt::obs::CSensoryFrame& frame) {
+  if (!any_action_ || frame.empty()) return;
+  const Stamp stamp = (*frame.begin())->timestamp;
+  if (stamp != INVALID_TIMESTAMP) from_actions_.push_back({stamp, T_world_vehicle_});
+}
+
+std::vector<PoseSample> EgoSamples::poses() const { return longest(poses_); }
+
+std::vector<PoseSample> EgoSamples::odometry() const {
+  const std::vector<PoseSample> observed = longest(odometry_);
+  return observed.size() >= from_actions_.size() ? observed : from_actions_;
+}
+
+std::vector<GnssSample> EgoSamples::gnss() const { return longest(gnss_); }
+
+}  // namespace lidar_upsampling

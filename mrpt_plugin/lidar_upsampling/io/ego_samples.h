@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the lidar_upsampling authors
+#pragma once
+
+#include <mrpt/obs/CActionCollection.h>
+#include <mrpt/obs/CObservation.h>
+#include <mrpt/obs/CObservationGPS.h>
+#include <mrpt/obs/CSensoryFrame.h>
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "lidar_upsampling/ego/ego_motion.h"
+
+namespace lidar_upsampling {
+
+/// @brief The position of an observation's GGA message, none without a fix. Its stamp is the
+/// satellite time if that agrees with the computer's within a second, else the computer's, as other
+/// sensors' are.
+[[nodiscard]] std::optional<GnssSample> gnss_sample(const mrpt::obs::CObservationGPS& observation);
+
+/// @brief Gathers what a log tells of the vehicle's motion. Streams of different labels may use
+/// different worlds, so they are kept apart, and the one with the most samples is given out.
+class EgoSamples {
+ public:
+  void add_observation(const mrpt::obs::CObservation& observation);
+  /// Adds the increment of the best movement estimation to the pose of the next frame.
+  void add_actions(const mrpt::obs::CActionCollection& actions);
+  /// Stamps the pose reached so far with the first observation's time.
+  void add_frame(const mrpt::obs::CSensoryFrame& frame);
+
+  [[nodiscard]] std::vector<PoseSample> poses() const;
+  [[nodiscard]] std::vector<PoseSample> odometry() const;
+  [[nodiscard]] std::vector<GnssSample> gnss() const;
+
+ private:
+  std::map<std::string, std::vector<PoseSample>> poses_;
+  std::map<std::string, std::vector<PoseSample>> odometry_;
+  std::map<std::string, std::vector<GnssSample>> gnss_;
+  std::vector<PoseSample> from_actions_;
+  Pose T_world_vehicle_ = Pose::Identity();  // by the actions' increments
+  bool any_action_ = false;
+};
+
+}  // namespace lidar_upsampling

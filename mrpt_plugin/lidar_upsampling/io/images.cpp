@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the lidar_upsampling authors
+#include "lidar_upsampling/io/images.h"
+
+#include <mrpt/system/datetime.h>
+
+#include <algorithm>
+#include <opencv2/imgproc.hpp>
+#include <stdexcept>
+
+#include "lidar_upsampling/io/mrpt_errors.h"
+
+namespace lidar_upsampling {
+namespace {
+
+using mrpt::img::CImage;
+
+// Loads an externally stored picture, and unloads it however the scope is left.
+class LoadedImage {
+ public:
+  explicit LoadedImage(const CImage& image) : image_(image) {
+    if (image_.isExternallyStored()) image_.forceLoad();
+  }
+  ~LoadedImage() { image_.unload(); }  // does nothing to an embedded one
+  LoadedImage(const LoadedImage&) = delete;
+  LoadedImage& operator=(const LoadedImage&) = delete;
+
+  [[nodiscard]] cv::Mat pixels() const { return image_.asCvMat<cv::Mat>(mrpt::img::DEEP_COPY); }
+
+ private:
+  const CImage& image_;
+};
+
+cv::Mat to_8_bit(const cv::Mat& pixels) {
+  if (pixels.depth() == CV_8U) return pixels;
+  cv::Mat out;
+  pixels.convertTo(out, CV_8U, pixels.depth() == CV_16U ? 1. / 257. : 255.);
+  return out;
+}
+
+cv::Mat load_pixels(const mrpt::obs::CObservationImage& observation) {
+  try {
+    const LoadedImage loaded(observation.image);
+    cv::Mat pixels = to_8_bit(loaded.pixels());
+    if (pixels.empty()) throw std::runtime_error("it is empty");
+    return pixels;
+  } catch (const std::exception& error) {
+    const CImage& image = observation.image;
+    throw std::runtime_error("no picture in image '" + observation.sensorLabel + "' of " +
+                             mrpt::system::dateTimeToString(observation.timestamp) +
+                             (image.isExternallyStored()
+                                  ? ", file " + image.getExternalStorageFileAbsolutePath()
+                                  : std::string(", embedded")) +
+                             ": " + one_line(error));
+  }
+}
+
+}  // namespace
+
+Pose from_mrpt(const mrpt::poses::CPose3D& pose) {
+  Pose T;
+  T.matrix() = pose.getHomogeneousMatrixVal<mrpt::math::CMatrixDouble44>().asEigen();
+  return T;
+}
+
+mrpt::poses::CPose3D to_mrpt(const Pose& pose) {
+  return mrpt::poses::CPose3D(mrpt::math::CMatrixDouble44(pose.matrix()));
+}
+
+CameraModel from_mrpt(const mrpt::img::TCamera& camera) {
+  CameraModel model;
+  model.width = static_cast<int>(camera.ncols);
+  model.height = static_cast<int>(camera.nrows);
+  model.fx = camera.fx();
+  model.fy = camera.fy();
+  model.cx = camera.cx();
+  model.cy = camera.cy();
+  switch (camera.distortion) {
+    case mrpt::img::DistortionModel::plumb_bob:
+      model.distortion_model = DistortionModel::plumb_bob;
+      break;
+    case mrpt::img::DistortionModel::kannala_brandt:
+      model.distortion_model = DistortionModel::kannala_brandt;
+      break;
+    default:
+      return model;  // MRPT ignores the coefficients
+  }
+  std::copy(camera.dist.begin(), camera.dist.end(), model.distortion.begin());
+  return model;
+}
+
+mrpt::img::TCamera to_mrpt(const CameraModel& model) {
+  mrpt::img::TCamera camera;
+  camera.ncols = static_cast<std::uint32_t>(model.width);
+  camera.nrows = static_cast<std::uint32_t>(model.height);
+  camera.setIntrinsicParamsFromValues(model.fx, model.fy, model.cx, model.cy);
+  camera.distortion = model.distortion_model == DistortionModel::plumb_bob
+                          ? mrpt::img::DistortionModel::plumb_bob
+                      : model.distortion_model == DistortionModel::kannala_brandt
+                          ? mrpt::img::DistortionModel::kannala_brandt
+                          : mrpt::img::DistortionModel::none;
+  std::copy(model.distortion.begin(), model.distortion.end(), camera.dist.begin());
+  return camera;
+}
+
+CameraModel scaled(const CameraModel& model, int width, int height) {
+  CameraModel out = model;
+  if (model.width > 0 && model.height > 0) {
+    const double sx = static_cast<double>(width) / model.width;
+    const double sy = static_cast<double>(height) / model.height;
+    // Pixel centres lie at whole numbers, so it is the outer border, at -0.5, that scales.
+    out.fx *= sx;
+    out.fy *= sy;
+    if (width != model.width) out.cx = (model.cx + 0.5) * sx - 0.5;
+    if (height != model.height) out.cy = (model.cy + 0.5) * sy - 0.5;
+  }
+  out.width = width;
+  out.height = height;
+  return out;
+}
+
+bool is_calibrated(const CameraModel& model) {
+  return model.fx > 0 && model.fy > 0 && model.cx > 0 && model.cy > 0 && model.cx < model.width &&
+         model.cy < model.height;
+}
+
+Camera camera_of(const mrpt::obs::CObservationImage& observation) {
+  return {observation.sensorLabel, from_mrpt(observation.cameraParams),
+          from_mrpt(observation.cameraPose)};
+}
+
+CameraImage image_from_observation(mrpt::obs::CObservationImage& observation) {
+  CameraImage image{observation.timestamp, camera_of(observation), {}, {}};
+  const cv::Mat pixels = load_pixels(observation);
+  image.camera.model = scaled(image.camera.model, pixels.cols, pixels.rows);
+  if (pixels.channels() == 1) {
+    image.gray = pixels;
+    return image;
+  }
+  if (pixels.channels() == 4) {
+    cv::cvtColor(pixels, image.bgr, cv::COLOR_BGRA2BGR);
+  } else {
+    image.bgr = pixels;
+  }
+  cv::cvtColor(image.bgr, image.gray, cv::COLOR_BGR2GRAY);
+  return image;
+}
+
+mrpt::obs::CObservationImage::Ptr observation_from_image(const CameraImage& image) {
+  const auto observation = mrpt::obs::CObservationImage::Create();
+  observation->timestamp = image.stamp;
+  observation->sensorLabel = image.camera.label;
+  observation->cameraParams = to_mrpt(image.camera.model);
+  observation->cameraPose = to_mrpt(image.camera.T_vehicle_camera);
+  observation->image = CImage(image.bgr.empty() ? image.gray : image.bgr, mrpt::img::DEEP_COPY);
+  return observation;
+}
+
+}  // namespace lidar_upsampling

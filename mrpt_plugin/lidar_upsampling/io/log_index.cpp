@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the lidar_upsampling authors
+#include "lidar_upsampling/io/log_index.h"
+
+#include <mrpt/obs/CActionCollection.h>
+#include <mrpt/obs/CObservationGPS.h>
+#include <mrpt/obs/CObservationImage.h>
+#include <mrpt/obs/CObservationOdometry.h>
+#include <mrpt/obs/CObservationRobotPose.h>
+#include <mrpt/obs/CSensoryFrame.h>
+
+#include <algorithm>
+#include <cstdio>
+
+#include "lidar_upsampling/io/carriers.h"
+#include "lidar_upsampling/io/ego_samples.h"
+#include "lidar_upsampling/io/images.h"
+#include "lidar_upsampling/io/rawlog_stream.h"
+
+namespace lidar_upsampling {
+namespace {
+
+using mrpt::obs::CObservation;
+
+StreamKind kind_of(const CObservation& observation) {
+  if (is_lidar_scan(observation)) return StreamKind::lidar;
+  if (IS_DERIVED(observation, mrpt::obs::CObservationImage)) return StreamKind::camera;
+  if (IS_DERIVED(observation, mrpt::obs::CObservationRobotPose)) return StreamKind::pose;
+  if (IS_DERIVED(observation, mrpt::obs::CObservationOdometry)) return StreamKind::odometry;
+  if (IS_DERIVED(observation, mrpt::obs::CObservationGPS)) return StreamKind::gnss;
+  return StreamKind::other;
+}
+
+std::string class_name_of(const CObservation& observation) {
+  const std::string full = observation.GetRuntimeClass()->className;
+  const auto colon = full.rfind(':');
+  return colon == std::string::npos ? full : full.substr(colon + 1);
+}
+
+StreamInfo& stream_of(const CObservation& observation, std::vector<StreamInfo>& streams) {
+  const std::string class_name = class_name_of(observation);
+  for (StreamInfo& stream : streams) {
+    if (stream.label == observation.sensorLabel && stream.class_name == class_name) return stream;
+  }
+  StreamInfo stream;
+  stream.label = observation.sensorLabel;
+  stream.class_name = class_name;
+  stream.kind = kind_of(observation);
+  if (const auto* const image = dynamic_cast<const mrpt::obs::CObservationImage*>(&observation)) {
+    stream.camera = camera_of(*image);
+  }
+  return streams.emplace_back(std::move(stream));
+}
+
+double median_period(const std::vector<Stamp>& stamps) {
+  if (stamps.size() < 2) return 0;
+  std::vector<double> periods;
+  for (std::size_t i = 1; i < stamps.size(); ++i) {
+    periods.push_back(seconds_between(stamps[i - 1], stamps[i]));
+  }
+  const auto middle = periods.begin() + static_cast<std::ptrdiff_t>(periods.size() / 2);
+  std::nth_element(periods.begin(), middle, periods.end());
+  return *middle;
+}
+
+class Indexer {
+ public:
+  void add(const mrpt::serialization::CSerializable& object) {
+    ++index_.num_objects;
+    if (const auto* const observation = dynamic_cast<const CObservation*>(&object)) {
+      add_observation(*observation);
+    } else if (const auto* const actions =
+                   dynamic_cast<const mrpt::obs::CActionCollection*>(&object)) {
+      index_.has_frames = true;
+      ego_.add_actions(*actions);
+    } else if (const auto* const frame = dynamic_cast<const mrpt::obs::CSensoryFrame*>(&object)) {
+      index_.has_frames = true;
+      ego_.add_frame(*frame);
+      for (const auto& observation_in_frame : *frame) add_observation(*observation_in_frame);
+    }
+  }
+
+  LogIndex result() {
+    for (StreamInfo& stream : index_.streams) stream.median_period_s = median_period(stream.stamps);
+    index_.poses = ego_.poses();
+    index_.odometry = ego_.odometry();
+    index_.gnss = ego_.gnss();
+    return std::move(index_);
+  }
+
+ private:
+  void add_observation(const CObservation& observation) {
+    StreamInfo& stream = stream_of(observation, index_.streams);
+    ++stream.count;
+    if (observation.timestamp == INVALID_TIMESTAMP) return;
+    stream.stamps.push_back(observation.timestamp);
+    ego_.add_observation(observation);
+  }
+
+  LogIndex index_;
+  EgoSamples ego_;
+};
+
+}  // namespace
+
+const char* to_string(StreamKind kind) {
+  switch (kind) {
+    case StreamKind::lidar:
+      return "lidar";
+    case StreamKind::camera:
+      return "camera";
+    case StreamKind::pose:
+      return "pose";
+    case StreamKind::odometry:
+      return "odometry";
+    case StreamKind::gnss:
+      return "gnss";
+    case StreamKind::other:
+      break;
+  }
+  return "other";
+}
+
+bool StreamInfo::calibrated() const { return camera && is_calibrated(camera->model); }
+
+const StreamInfo* LogIndex::find(const std::string& label, StreamKind kind) const {
+  const auto it = std::find_if(streams.begin(), streams.end(), [&](const StreamInfo& stream) {
+    return stream.label == label && stream.kind == kind;
+  });
+  return it == streams.end() ? nullptr : &*it;
+}
+
+std::vector<const StreamInfo*> LogIndex::of_kind(StreamKind kind) const {
+  std::vector<const StreamInfo*> found;
+  for (const StreamInfo& stream : streams) {
+    if (stream.kind == kind) found.push_back(&stream);
+  }
+  return found;
+}
+
+LogIndex index_log(const std::string& path, const std::function<void(double)>& progress) {
+  RawlogReader reader(path);
+  Indexer indexer;
+  std::optional<std::string> corruption;
+  std::size_t num_objects = 0;
+  try {
+    while (const auto entry = reader.next()) {
+      indexer.add(*entry->object);
+      ++num_objects;
+      if (progress) progress(reader.progress());
+    }
+  } catch (const CorruptRawlog& error) {
+    if (num_objects == 0) throw;
+    corruption = error.what();
+  }
+  LogIndex index = indexer.result();
+  index.path = path;
+  index.corruption = corruption;
+  return index;
+}
+
+std::string labels_of(const LogIndex& index) {
+  std::string text;
+  for (const StreamInfo& stream : index.streams) {
+    text += (text.empty() ? "" : ", ") + stream.label + " (" + to_string(stream.kind) + ")";
+  }
+  return text.empty() ? "no observation at all" : text;
+}
+
+std::string describe(const LogIndex& index) {
+  std::string table;
+  for (const StreamInfo& stream : index.streams) {
+    char line[256];
+    const double rate = stream.median_period_s > 0 ? 1. / stream.median_period_s : 0.;
+    std::snprintf(line, sizeof line, "%-16s %-26s %-8s %7zu at %6.2f Hz", stream.label.c_str(),
+                  stream.class_name.c_str(), to_string(stream.kind), stream.count, rate);
+    table += line;
+    if (stream.camera) {
+      const CameraModel& model = stream.camera->model;
+      table += ", " + std::to_string(model.width) + " x " + std::to_string(model.height) +
+               (stream.calibrated() ? "" : ", not calibrated");
+    }
+    table += '\n';
+  }
+  return table;
+}
+
+}  // namespace lidar_upsampling

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the lidar_upsampling authors
+#include "lidar_upsampling/metrics/object_error.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <stdexcept>
+#include <string>
+
+#include "lidar_upsampling/metrics/scan_motion.h"
+
+namespace lidar_upsampling {
+
+double ground_speed(const ReferenceMotion& object, const Pose& T_lidar_t_lidar_k_ego, double dt) {
+  if (!(dt > 0)) {
+    throw std::invalid_argument("object error: the reference must lie after the key scan, dt is " +
+                                std::to_string(dt) + " s");
+  }
+  return position_error(object, T_lidar_t_lidar_k_ego) / dt;
+}
+
+bool is_moving(const ReferenceMotion& object, const Pose& T_lidar_t_lidar_k_ego, double dt,
+               const MovingOptions& options) {
+  return ground_speed(object, T_lidar_t_lidar_k_ego, dt) > options.min_speed &&
+         position_error(object, T_lidar_t_lidar_k_ego) > options.min_sigmas * object.sigma_m;
+}
+
+double position_error(const ReferenceMotion& object, const Pose& T_lidar_t_lidar_k) {
+  return (object.T_lidar_t_lidar_k * object.centroid_k - T_lidar_t_lidar_k * object.centroid_k)
+      .norm();
+}
+
+Eigen::Vector3d centroid_of(const std::vector<Eigen::Vector3f>& points) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (const auto& point : points) {
+    sum += point.cast<double>();
+  }
+  return sum / std::max<double>(1, static_cast<double>(points.size()));
+}
+
+std::optional<Pose> recover_motion(const LidarScan& key, const LidarScan& virtual_scan,
+                                   const std::vector<int>& object, const std::vector<int>& matches,
+                                   const Surface& surface, const std::vector<Pose>& guesses) {
+  std::vector<std::pair<Eigen::Vector3d, Eigen::Vector3d>> pairs;
+  std::vector<Eigen::Vector3f> points;
+  for (const int i : object) {
+    points.push_back(key.points[i]);
+    if (!matches.empty() && matches[i] >= 0) {
+      pairs.emplace_back(key.points[i].cast<double>(),
+                         virtual_scan.points[matches[i]].cast<double>());
+    }
+  }
+  // Fewer pairs say little about the object: the others went by occlusion or another carrier.
+  if (pairs.size() >= 10 && 4 * pairs.size() >= object.size()) {
+    if (const auto fit = fit_rigid(pairs)) {
+      return fit->T_target_source;
+    }
+  }
+  const ObjectRegistration found = register_object(points, surface, guesses);
+  return found.status == RegistrationStatus::reliable ? std::make_optional(found.T_target_object)
+                                                      : std::nullopt;
+}
+
+ErrorSummary summarize(std::vector<double> values) {
+  ErrorSummary summary;
+  summary.count = static_cast<int>(values.size());
+  if (values.empty()) {
+    return summary;
+  }
+  std::sort(values.begin(), values.end());
+  const auto quantile = [&](double share) {
+    const double place = share * static_cast<double>(values.size() - 1);
+    const auto low = static_cast<std::size_t>(place);
+    const auto high = std::min(low + 1, values.size() - 1);
+    const double rest = place - static_cast<double>(low);
+    return (1 - rest) * values[low] + rest * values[high];
+  };
+  summary.mean =
+      std::accumulate(values.begin(), values.end(), 0.) / static_cast<double>(values.size());
+  summary.median = quantile(0.5);
+  summary.p95 = quantile(0.95);
+  return summary;
+}
+
+}  // namespace lidar_upsampling

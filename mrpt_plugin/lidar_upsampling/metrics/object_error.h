@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the lidar_upsampling authors
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "lidar_upsampling/metrics/object_registration.h"
+#include "lidar_upsampling/types.h"
+
+namespace lidar_upsampling {
+
+/// An object of the key scan, and where it really went.
+struct ReferenceMotion {
+  Eigen::Vector3d centroid_k = Eigen::Vector3d::Zero();  ///< of its points, in the lidar frame at k
+  Pose T_lidar_t_lidar_k = Pose::Identity();             ///< ego- and object motion together
+  double sigma_m = 0.02;                                 ///< of the centroid's position
+};
+
+struct MovingOptions {
+  double min_speed = 0.5;  ///< m/s over ground
+  double min_sigmas = 3;   ///< step over ground against its uncertainty
+};
+
+/// Speed over ground, m/s: the reference motion against the ego-motion.
+[[nodiscard]] double ground_speed(const ReferenceMotion& object, const Pose& T_lidar_t_lidar_k_ego,
+                                  double dt);
+
+/// Whether an object moves over ground by more than its uncertainty allows.
+/// @param dt seconds from the key scan to the reference, positive. @throw std::invalid_argument
+[[nodiscard]] bool is_moving(const ReferenceMotion& object, const Pose& T_lidar_t_lidar_k_ego,
+                             double dt, const MovingOptions& options = {});
+
+/// Metres between where the reference and an estimate put the object's centroid.
+[[nodiscard]] double position_error(const ReferenceMotion& object, const Pose& T_lidar_t_lidar_k);
+
+[[nodiscard]] Eigen::Vector3d centroid_of(const std::vector<Eigen::Vector3f>& points);
+
+/// @brief The motion that a virtual scan gave to an object of the key scan: from its own points
+/// where they can be told (`matches` of match_by_beam), else by registration to the virtual scan.
+/// @param object indices into the key scan.
+/// @param surface of the virtual scan without ground; made by the caller once for all objects.
+/// @param guesses T_lidar_t_lidar_k, the ego-motion first.
+/// @return none: neither way gives a clear answer.
+[[nodiscard]] std::optional<Pose> recover_motion(
+    const LidarScan& key, const LidarScan& virtual_scan, const std::vector<int>& object,
+    const std::vector<int>& matches, const Surface& surface, const std::vector<Pose>& guesses);
+
+struct ErrorSummary {
+  int count = 0;
+  double mean = 0, median = 0, p95 = 0;  ///< zero if there are none
+};
+
+[[nodiscard]] ErrorSummary summarize(std::vector<double> values);
+
+}  // namespace lidar_upsampling

@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the lidar_upsampling authors
+#include "lidar_upsampling/metrics/object_registration.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <stdexcept>
+
+#include "lidar_upsampling/ego/se3.h"
+
+namespace lidar_upsampling {
+
+namespace {
+
+constexpr double kScoreCut = 0.5;  // m
+constexpr double kResidualSigma =
+    0.03;  // m, of a good match: what the soft constraints weigh against
+
+using Points = std::vector<Eigen::Vector3f>;
+
+struct Problem {
+  const Points& points;
+  const Surface& target;
+  const Pose& T_level;  ///< the ego-motion
+  const ObjectRegistrationOptions& options;
+  Eigen::Vector3d centroid;
+};
+
+struct Candidate {
+  Pose T = Pose::Identity();
+  double score = kScoreCut;
+};
+
+Points thinned(const Points& points, int max_points) {
+  const double stride = std::max(1., static_cast<double>(points.size()) / max_points);
+  Points kept;
+  for (double i = 0; i < static_cast<double>(points.size()); i += stride) {
+    kept.push_back(points[static_cast<std::size_t>(i)]);
+  }
+  return kept;
+}
+
+double score_of(const Problem& problem, const Pose& T_target_object, int stride = 1) {
+  const Eigen::Isometry3f T = T_target_object.cast<float>();
+  double sum = 0;
+  int count = 0;
+  for (std::size_t i = 0; i < problem.points.size(); i += stride, ++count) {
+    const auto nearest = problem.target.index.nearest(T * problem.points[i]);
+    sum += std::min<double>(nearest.sq_distance, kScoreCut * kScoreCut);
+  }
+  return std::sqrt(sum / count);
+}
+
+/// Adds one point's match: across the surface with full weight, along it with little.
+void add_match(const Problem& problem, const Eigen::Vector3d& point, const Eigen::Vector3d& pivot,
+               double scale, Matrix6d& H, Twist& b) {
+  const auto nearest = problem.target.index.nearest(point.cast<float>());
+  const double reach = problem.options.max_correspondence_m;
+  if (nearest.index < 0 || nearest.sq_distance > reach * reach) {
+    return;
+  }
+  const Eigen::Vector3d error = point - problem.target.index.points()[nearest.index].cast<double>();
+  const Eigen::Vector3d normal = problem.target.normals[nearest.index].cast<double>();
+  const double along = normal.isZero() ? 1 : problem.options.point_weight;
+  const Eigen::Matrix3d metric =
+      along * Eigen::Matrix3d::Identity() + (1 - along) * normal * normal.transpose();
+  const double root = scale * scale / (scale * scale + error.dot(metric * error));
+  Eigen::Matrix<double, 3, 6> jacobian;
+  jacobian << -skew(point - pivot), Eigen::Matrix3d::Identity();
+  H.noalias() += root * root * jacobian.transpose() * metric * jacobian;
+  b.noalias() -= root * root * jacobian.transpose() * metric * error;
+}
+
+/// Vehicles stay level with the ground: soft, or sparse rings would tilt them.
+void add_level(const Problem& problem, const Pose& T, Matrix6d& H, Twist& b) {
+  const Eigen::AngleAxisd turned(T.linear() * problem.T_level.linear().transpose());
+  const Eigen::Vector3d tilt = turned.angle() * turned.axis();
+  const double rise = (T * problem.centroid - problem.T_level * problem.centroid).z();
+  const auto weight = [](double sigma) { return std::pow(kResidualSigma / sigma, 2); };
+  const double tilt_weight = weight(problem.options.tilt_sigma_rad);
+  for (int axis = 0; axis < 2; ++axis) {
+    H(axis, axis) += tilt_weight;
+    b[axis] -= tilt_weight * tilt[axis];
+  }
+  H(5, 5) += weight(problem.options.height_sigma_m);
+  b[5] -= weight(problem.options.height_sigma_m) * rise;
+}
+
+Candidate converge(const Problem& problem, const Pose& guess) {
+  Pose T = guess;
+  double scale = 4 * problem.options.kernel_m;
+  for (int i = 0; i < problem.options.max_iterations; ++i) {
+    Matrix6d H = 1e-9 * Matrix6d::Identity();
+    Twist b = Twist::Zero();
+    const Eigen::Vector3d pivot = T * problem.centroid;
+    for (const auto& point : problem.points) {
+      add_match(problem, T * point.cast<double>(), pivot, scale, H, b);
+    }
+    add_level(problem, T, H, b);
+    const Twist step = H.ldlt().solve(b);
+    if (!step.allFinite()) {
+      break;
+    }
+    T = renormalized(Eigen::Translation3d(pivot) * exp_se3(step) * Eigen::Translation3d(-pivot) *
+                     T);
+    if (scale <= problem.options.kernel_m && step.norm() < 2e-4) {
+      break;
+    }
+    scale = std::max(problem.options.kernel_m, 0.75 * scale);
+  }
+  return {T, score_of(problem, T)};
+}
+
+Pose shifted_by(const Pose& T, double x, double y) { return Eigen::Translation3d(x, y, 0) * T; }
+
+/// The best start on a half-metre grid around the ego-motion.
+Candidate search_start(const Problem& problem) {
+  constexpr double kCell = 0.5;
+  const int reach = static_cast<int>(problem.options.search_m / kCell);
+  const int stride = std::max(1, static_cast<int>(problem.points.size()) / 60);
+  Candidate best;
+  for (int ix = -reach; ix <= reach; ++ix) {
+    for (int iy = -reach; iy <= reach; ++iy) {
+      const Pose start = shifted_by(problem.T_level, ix * kCell, iy * kCell);
+      const double score = score_of(problem, start, stride);
+      if (score < best.score) {
+        best = {start, score};
+      }
+    }
+  }
+  return best;
+}
+
+Candidate best_candidate(const Problem& problem, const std::vector<Pose>& guesses) {
+  Candidate best;
+  for (const Pose& guess : guesses) {
+    const Candidate candidate = converge(problem, guess);
+    if (candidate.score < best.score) {
+      best = candidate;
+    }
+  }
+  // A far-off start may land on a neighbour that looks alike: it must be clearly better.
+  const Candidate searched = converge(problem, search_start(problem).T);
+  return searched.score < 0.8 * best.score ? searched : best;
+}
+
+double spread_of(const Problem& problem, const Candidate& best) {
+  constexpr double kShift = 0.2;
+  constexpr std::array<std::array<double, 2>, 4> kShifts{
+      {{kShift, 0}, {-kShift, 0}, {0, kShift}, {0, -kShift}}};
+  double spread = 0;
+  for (const auto& shift : kShifts) {
+    const Candidate again = converge(problem, shifted_by(best.T, shift[0], shift[1]));
+    if (again.score < 1.15 * best.score + 0.005) {
+      spread = std::max(spread, (again.T * problem.centroid - best.T * problem.centroid).norm());
+    }
+  }
+  return spread;
+}
+
+double overlap_of(const Problem& problem, const Pose& T_target_object) {
+  const Eigen::Isometry3f T = T_target_object.cast<float>();
+  const double reach = problem.options.overlap_distance_m;
+  const auto covered = std::count_if(
+      problem.points.begin(), problem.points.end(), [&](const Eigen::Vector3f& point) {
+        return problem.target.index.nearest(T * point).sq_distance < reach * reach;
+      });
+  return static_cast<double>(covered) / static_cast<double>(problem.points.size());
+}
+
+}  // namespace
+
+const char* to_string(RegistrationStatus status) {
+  switch (status) {
+    case RegistrationStatus::reliable:
+      return "reliable";
+    case RegistrationStatus::too_few_points:
+      return "too_few_points";
+    case RegistrationStatus::poor_overlap:
+      return "poor_overlap";
+    case RegistrationStatus::ambiguous:
+      return "ambiguous";
+  }
+  return "unknown";
+}
+
+ObjectRegistration register_object(const Points& points_object, const Surface& target,
+                                   const std::vector<Pose>& guesses,
+                                   const ObjectRegistrationOptions& options) {
+  if (guesses.empty()) {
+    throw std::invalid_argument("register_object: needs at least one guess, the ego-motion");
+  }
+  ObjectRegistration result;
+  result.T_target_object = guesses.front();
+  if (static_cast<int>(points_object.size()) < options.min_points ||
+      target.index.points().empty()) {
+    return result;
+  }
+  const Points points = thinned(points_object, options.max_points);
+  Eigen::Vector3d centroid = Eigen::Vector3d::Zero();
+  for (const auto& point : points) {
+    centroid += point.cast<double>() / static_cast<double>(points.size());
+  }
+  const Problem problem{points, target, guesses.front(), options, centroid};
+  const Candidate best = best_candidate(problem, guesses);
+  result.T_target_object = best.T;
+  result.score_m = best.score;
+  result.overlap = overlap_of(problem, best.T);
+  if (result.overlap < options.min_overlap) {
+    result.status = RegistrationStatus::poor_overlap;
+    return result;
+  }
+  result.spread_m = spread_of(problem, best);
+  result.status = result.spread_m > options.max_spread_m ? RegistrationStatus::ambiguous
+                                                         : RegistrationStatus::reliable;
+  return result;
+}
+
+}  // namespace lidar_upsampling

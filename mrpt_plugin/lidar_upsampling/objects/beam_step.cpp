@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the lidar_upsampling authors
+#include "lidar_upsampling/objects/beam_step.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace lidar_upsampling {
+namespace {
+
+constexpr double kDegree = 3.14159265358979323846 / 180;
+constexpr double kDefaultVerticalStepDeg = 0.4;
+
+/// Elevations in bins of a quarter degree; rings that lie closer together leave no empty bins
+/// between.
+double step_from_elevations(const LidarScan& scan) {
+  constexpr double kBin = 0.25;
+  constexpr int kBins = 720;
+  constexpr int kMinHits = 3;
+  std::array<int, kBins> hits{};
+  const std::size_t stride = std::max<std::size_t>(1, scan.size() / 20000);
+  for (std::size_t i = 0; i < scan.size(); i += stride) {
+    const Eigen::Vector3f& p = scan.points[i];
+    const double elevation = std::atan2(p.z(), p.head<2>().norm()) / kDegree;
+    ++hits[std::clamp(static_cast<int>((elevation + 90) / kBin), 0, kBins - 1)];
+  }
+  int runs = 0;
+  int first = -1;
+  int last = -1;
+  for (int bin = 0; bin < kBins; ++bin) {
+    if (hits[bin] < kMinHits) continue;
+    if (first < 0) first = bin;
+    if (last != bin - 1) ++runs;
+    last = bin;
+  }
+  return runs < 4 ? kDefaultVerticalStepDeg : (last - first) * kBin / (runs - 1);
+}
+
+}  // namespace
+
+double estimate_vertical_step_deg(const LidarScan& scan) {
+  if (scan.num_rings < 2 || scan.ring.empty()) return step_from_elevations(scan);
+  std::vector<double> sum(scan.num_rings, 0.);
+  std::vector<int> count(scan.num_rings, 0);
+  for (std::size_t i = 0; i < scan.size(); ++i) {
+    const Eigen::Vector3f& p = scan.points[i];
+    sum[scan.ring[i]] += std::atan2(p.z(), p.head<2>().norm());
+    ++count[scan.ring[i]];
+  }
+  int lowest = -1;
+  int highest = -1;
+  for (int ring = 0; ring < scan.num_rings; ++ring) {
+    if (count[ring] == 0) continue;
+    if (lowest < 0) lowest = ring;
+    highest = ring;
+  }
+  if (highest <= lowest) return kDefaultVerticalStepDeg;
+  const double span = sum[highest] / count[highest] - sum[lowest] / count[lowest];
+  return std::abs(span) / kDegree / (highest - lowest);
+}
+
+}  // namespace lidar_upsampling

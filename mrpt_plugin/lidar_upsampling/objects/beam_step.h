@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the lidar_upsampling authors
+#pragma once
+
+#include "lidar_upsampling/types.h"
+
+namespace lidar_upsampling {
+
+/// The angle between neighbouring rings in degrees, from the ring indices, else from the gaps
+/// between the points' elevations; 0.4 where neither shows rings.
+[[nodiscard]] double estimate_vertical_step_deg(const LidarScan& scan);
+
+}  // namespace lidar_upsampling

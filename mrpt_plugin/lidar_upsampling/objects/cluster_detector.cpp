@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the lidar_upsampling authors
+#include "lidar_upsampling/objects/cluster_detector.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "lidar_upsampling/vision/projection.h"
+
+namespace lidar_upsampling {
+namespace {
+
+constexpr double kDegree = 3.14159265358979323846 / 180;
+
+bool within(double value, double low, double high) { return value >= low && value <= high; }
+
+bool is_road_user(const ClusterExtent& extent, std::size_t num_points, bool has_ground,
+                  const ClusterDetectorOptions& options) {
+  if (static_cast<int>(num_points) < options.min_points) return false;
+  if (!within(extent.centroid.head<2>().norm(), options.min_range, options.max_range)) return false;
+  if (!within(extent.length, options.min_length, options.max_length)) return false;
+  if (extent.width > options.max_width) return false;
+  if (!has_ground) return within(extent.height(), options.min_height / 2, options.max_height);
+  return extent.bottom <= options.max_bottom &&
+         within(extent.top, options.min_height, options.max_height);
+}
+
+const char* class_by_size(const ClusterExtent& extent) {
+  if (extent.length < 1.1F && within(extent.top, 1.2, 2.1)) return "person";
+  if (within(extent.length, 1.3, 5.5) && extent.width < 2.3F && within(extent.top, 1.1, 2.2)) {
+    return extent.width < 0.8F && extent.length < 2.2F ? "object" : "car";
+  }
+  if (extent.length > 2 && extent.top > 2.4F) return "truck";
+  return "object";
+}
+
+/// The box around what the picture shows of a cluster.
+struct Seen {
+  Box2d box;
+  int num_points = 0;
+};
+
+void extend(Box2d& box, const Eigen::Vector2d& pixel) {
+  box = {std::min(box.left, pixel.x()), std::min(box.top, pixel.y()),
+         std::max(box.right, pixel.x()), std::max(box.bottom, pixel.y())};
+}
+
+/// An object that stands on the ground reaches down to it, though its lowest points were taken for
+/// ground; at the top it may reach half way to the next ring.
+Seen look_at(std::size_t i, const DetectorInput& input) {
+  constexpr double kFar = std::numeric_limits<double>::infinity();
+  constexpr float kStandingHeight = 0.6F;
+  const SceneSegments& segments = *input.segments;
+  const Ground& ground = segments.ground;
+  const CameraModel& camera = input.image.camera.model;
+  const float bottom = segments.extents[i].bottom;
+  const bool stands = ground.status == GroundStatus::found && bottom < kStandingHeight;
+  Seen seen{{kFar, kFar, -kFar, -kFar}, 0};
+  for (const int index : segments.clusters[i]) {
+    const Eigen::Vector3d point = input.key_scan->points[index].cast<double>();
+    const auto pixel = project(camera, input.T_camera_lidar * point);
+    if (!pixel) continue;
+    extend(seen.box, *pixel);
+    ++seen.num_points;
+    if (!stands || ground.height[index] > bottom + 0.1F) continue;
+    const Eigen::Vector3d foot = point - ground.height[index] * ground.plane.normal;
+    if (const auto at = project(camera, input.T_camera_lidar * foot)) extend(seen.box, *at);
+  }
+  const double half_ring_px = 0.5 * segments.vertical_step_deg * kDegree * camera.fy;
+  seen.box.top = std::max(0., seen.box.top - half_ring_px);
+  return seen;
+}
+
+}  // namespace
+
+std::vector<Detection> ClusterDetector::detect(const DetectorInput& input) {
+  if (input.key_scan == nullptr || input.segments == nullptr) return {};
+  const SceneSegments& segments = *input.segments;
+  const bool has_ground = segments.ground.status == GroundStatus::found;
+  std::vector<Detection> detections;
+  for (std::size_t i = 0; i < segments.clusters.size(); ++i) {
+    const auto& cluster = segments.clusters[i];
+    const ClusterExtent& extent = segments.extents[i];
+    if (!is_road_user(extent, cluster.size(), has_ground, options_)) continue;
+    if ((input.T_camera_lidar * extent.centroid.cast<double>()).z() <= 0) continue;
+    const Seen seen = look_at(i, input);
+    if (seen.num_points < options_.min_points ||
+        seen.num_points < options_.min_visible * static_cast<double>(cluster.size()) ||
+        std::min(seen.box.width(), seen.box.height()) < options_.min_box_size) {
+      continue;
+    }
+    detections.push_back({seen.box, class_by_size(extent), 1., -1, cluster});
+  }
+  return detections;
+}
+
+}  // namespace lidar_upsampling

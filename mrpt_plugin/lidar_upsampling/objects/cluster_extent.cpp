@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the lidar_upsampling authors
+#include "lidar_upsampling/objects/cluster_extent.h"
+
+#include <algorithm>
+#include <limits>
+#include <opencv2/imgproc.hpp>
+
+namespace lidar_upsampling {
+namespace {
+
+constexpr double kDegree = 3.14159265358979323846 / 180;
+
+}  // namespace
+
+ClusterExtent cluster_extent(const std::vector<Eigen::Vector3f>& points,
+                             const std::vector<float>& heights, const std::vector<int>& cluster) {
+  ClusterExtent extent;
+  extent.bottom = std::numeric_limits<float>::infinity();
+  extent.top = -extent.bottom;
+  std::vector<cv::Point2f> footprint;
+  footprint.reserve(cluster.size());
+  for (const int index : cluster) {
+    const Eigen::Vector3f& point = points[index];
+    const float height = heights.empty() ? point.z() : heights[index];
+    extent.bottom = std::min(extent.bottom, height);
+    extent.top = std::max(extent.top, height);
+    extent.centroid += point;
+    footprint.emplace_back(point.x(), point.y());
+  }
+  extent.centroid /= static_cast<float>(cluster.size());
+
+  const cv::RotatedRect rectangle = cv::minAreaRect(footprint);
+  const bool turned = rectangle.size.height > rectangle.size.width;
+  extent.center = {rectangle.center.x, rectangle.center.y};
+  extent.length = std::max(rectangle.size.width, rectangle.size.height);
+  extent.width = std::min(rectangle.size.width, rectangle.size.height);
+  double yaw_deg = rectangle.angle + (turned ? 90. : 0.);
+  while (yaw_deg > 90) yaw_deg -= 180;
+  while (yaw_deg <= -90) yaw_deg += 180;
+  extent.yaw = static_cast<float>(yaw_deg * kDegree);
+  return extent;
+}
+
+}  // namespace lidar_upsampling

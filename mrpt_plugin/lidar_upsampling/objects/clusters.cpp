@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the lidar_upsampling authors
+#include "lidar_upsampling/objects/clusters.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <stdexcept>
+#include <string>
+
+#include "lidar_upsampling/objects/cluster_extent.h"
+#include "lidar_upsampling/objects/neighbours.h"
+
+namespace lidar_upsampling {
+namespace {
+
+class DisjointSets {
+ public:
+  explicit DisjointSets(std::size_t size) : parent_(size) {
+    std::iota(parent_.begin(), parent_.end(), 0);
+  }
+  int find(int i) {
+    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
+    return i;
+  }
+  void join(int i, int j) {
+    i = find(i);
+    j = find(j);
+    parent_[std::max(i, j)] = std::min(i, j);
+  }
+
+ private:
+  std::vector<int> parent_;
+};
+
+/// For each level of splitting, the component of each representative; what the threads found in
+/// which order does not matter.
+std::vector<DisjointSets> connect(const Neighbourhoods& near, const ClusterOptions& options) {
+  std::vector<DisjointSets> levels(options.max_splits + 1, DisjointSets(near.num_representatives));
+  tbb::parallel_for(std::size_t{0}, levels.size(), [&](std::size_t level) {
+    const auto max_ratio =
+        static_cast<float>(std::pow(options.split_shrink, 2 * static_cast<double>(level)));
+    for (const Links& some : near.links) {
+      for (const Link& link : some) {
+        if (link.ratio <= max_ratio) levels[level].join(link.a, link.b);
+      }
+    }
+  });
+  return levels;
+}
+
+using Clusters = std::vector<std::vector<int>>;
+
+/// Splits `members`, positions in `indices`, by the components of a level, and what is too large of
+/// them by the next.
+class Splitter {
+ public:
+  Splitter(const std::vector<Eigen::Vector3f>& points, const std::vector<int>& indices,
+           const ClusterOptions& options)
+      : points_(points),
+        indices_(indices),
+        options_(options),
+        near_(find_neighbours(points, indices, options)),
+        levels_(connect(near_, options)),
+        slot_of_root_(near_.num_representatives, -1) {}
+
+  Clusters run() {
+    std::vector<int> all(indices_.size());
+    std::iota(all.begin(), all.end(), 0);
+    split(all, 0);
+    return std::move(clusters_);
+  }
+
+ private:
+  void split(const std::vector<int>& members, std::size_t level) {
+    for (const auto& part : components(members, level)) {
+      if (static_cast<int>(part.size()) < options_.min_points) continue;
+      std::vector<int> cluster;
+      cluster.reserve(part.size());
+      for (const int member : part) cluster.push_back(indices_[member]);
+      if (level + 1 < levels_.size() && is_too_large(cluster)) {
+        split(part, level + 1);
+      } else {
+        std::sort(cluster.begin(), cluster.end());
+        clusters_.push_back(std::move(cluster));
+      }
+    }
+  }
+
+  Clusters components(const std::vector<int>& members, std::size_t level) {
+    Clusters parts;
+    std::vector<int> roots;
+    for (const int member : members) {
+      const int root = levels_[level].find(near_.representative[member]);
+      int& slot = slot_of_root_[root];
+      if (slot < 0) {
+        slot = static_cast<int>(parts.size());
+        parts.emplace_back();
+        roots.push_back(root);
+      }
+      parts[slot].push_back(member);
+    }
+    for (const int root : roots) slot_of_root_[root] = -1;
+    return parts;
+  }
+
+  [[nodiscard]] bool is_too_large(const std::vector<int>& cluster) const {
+    // No turn fits a footprint into the largest one whose upright box is longer than its diagonal.
+    Eigen::AlignedBox3f upright;
+    for (const int index : cluster) upright.extend(points_[index]);
+    const Eigen::Vector3f sides = upright.sizes();
+    if (std::max(sides.x(), sides.y()) > std::hypot(options_.max_length, options_.max_width)) {
+      return true;
+    }
+    if (std::max(sides.x(), sides.y()) <= options_.max_width) return false;
+    const ClusterExtent extent = cluster_extent(points_, {}, cluster);
+    return extent.length > options_.max_length || extent.width > options_.max_width;
+  }
+
+  const std::vector<Eigen::Vector3f>& points_;
+  const std::vector<int>& indices_;
+  const ClusterOptions& options_;
+  Neighbourhoods near_;
+  std::vector<DisjointSets> levels_;
+  std::vector<int> slot_of_root_;
+  Clusters clusters_;
+};
+
+void check(const ClusterOptions& options) {
+  if (!(options.min_distance > 0 && options.max_distance >= options.min_distance &&
+        options.voxel_size > 0 && options.distance_per_range >= 0 && options.beam_gaps >= 0 &&
+        options.max_splits >= 0)) {
+    throw std::invalid_argument(
+        "clusters: need 0 < min_distance (" + std::to_string(options.min_distance) +
+        " m) <= max_distance (" + std::to_string(options.max_distance) + " m), voxel_size (" +
+        std::to_string(options.voxel_size) + " m) and the growth with range not negative");
+  }
+}
+
+}  // namespace
+
+std::vector<std::vector<int>> euclidean_clusters(const std::vector<Eigen::Vector3f>& points,
+                                                 const std::vector<int>& indices,
+                                                 const ClusterOptions& options) {
+  check(options);
+  if (indices.empty()) return {};
+  Clusters clusters = Splitter(points, indices, options).run();
+  std::sort(clusters.begin(), clusters.end(), [](const auto& a, const auto& b) {
+    return a.size() != b.size() ? a.size() > b.size() : a.front() < b.front();
+  });
+  return clusters;
+}
+
+}  // namespace lidar_upsampling

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the lidar_upsampling authors
+#include "lidar_upsampling/objects/csv_detector.h"
+
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include <sstream>
+#include <stdexcept>
+
+namespace lidar_upsampling {
+namespace {
+
+constexpr std::int64_t kTicksPerSecond = 10'000'000;
+constexpr int kTickDigits = 7;
+/// 1970-01-01 in MRPT's ticks, which count from 1601-01-01.
+constexpr std::int64_t kUnixEpochTicks = 116'444'736'000'000'000;
+/// An integer below is seconds, above ticks: year 2286 and 1601-01-12 are far from any log.
+constexpr std::int64_t kLargestSeconds = 9'999'999'999;
+constexpr std::int64_t kSmallestTicks = 10'000'000'000'000;
+
+std::string trimmed(const std::string& text) {
+  const auto first = text.find_first_not_of(" \t\r\"");
+  if (first == std::string::npos) return "";
+  return text.substr(first, text.find_last_not_of(" \t\r\"") - first + 1);
+}
+
+std::vector<std::string> split(const std::string& line) {
+  std::vector<std::string> fields;
+  std::istringstream stream(line);
+  for (std::string field; std::getline(stream, field, ',');) fields.push_back(trimmed(field));
+  return fields;
+}
+
+bool all_digits(const std::string& text) {
+  return text.find_first_not_of("0123456789") == std::string::npos;
+}
+
+double parse_number(const std::string& text, const char* column) {
+  std::size_t used = 0;
+  double value = NAN;
+  try {
+    value = std::stod(text, &used);
+  } catch (const std::exception&) {
+    used = 0;
+  }
+  if (used == 0 || used != text.size() || !std::isfinite(value)) {
+    throw std::invalid_argument(std::string(column) + " is '" + text + "', not a number");
+  }
+  return value;
+}
+
+Detection parse_detection(const std::vector<std::string>& fields) {
+  Detection detection;
+  detection.class_name = fields[2];
+  detection.score = fields[3].empty() ? 1. : parse_number(fields[3], "score");
+  detection.box = {parse_number(fields[4], "left"), parse_number(fields[5], "top"),
+                   parse_number(fields[6], "right"), parse_number(fields[7], "bottom")};
+  if (detection.box.width() <= 0 || detection.box.height() <= 0) {
+    throw std::invalid_argument("the box is empty: right and bottom must exceed left and top");
+  }
+  if (fields.size() == 9 && !fields[8].empty()) {
+    const double track = parse_number(fields[8], "track");
+    if (track < -1 || track > std::numeric_limits<int>::max() || track != std::floor(track)) {
+      throw std::invalid_argument("track is '" + fields[8] + "', not a whole number");
+    }
+    detection.external_track = static_cast<int>(track);
+  }
+  return detection;
+}
+
+}  // namespace
+
+Stamp parse_stamp(const std::string& text) {
+  const auto point = text.find('.');
+  const std::string whole = text.substr(0, point);
+  std::string fraction = point == std::string::npos ? "" : text.substr(point + 1);
+  if (whole.empty() || whole.size() > 18 || !all_digits(whole) || !all_digits(fraction)) {
+    throw std::invalid_argument("stamp '" + text + "' is neither MRPT ticks nor UNIX seconds");
+  }
+  std::int64_t ticks = std::stoll(whole);
+  if (point == std::string::npos && ticks >= kSmallestTicks) {
+    return Stamp(Stamp::duration(ticks));
+  }
+  if (ticks > kLargestSeconds) {
+    throw std::invalid_argument("stamp '" + text + "' is neither MRPT ticks nor UNIX seconds");
+  }
+  fraction.resize(kTickDigits + 1, '0');
+  const std::int64_t tenths_of_ticks = std::stoll(fraction);
+  ticks = ticks * kTicksPerSecond + (tenths_of_ticks + 5) / 10 + kUnixEpochTicks;
+  return Stamp(Stamp::duration(ticks));
+}
+
+CsvDetector::CsvDetector(const CsvDetectorOptions& options)
+    : tolerance_s_(1e-3 * options.stamp_tolerance_ms) {
+  std::ifstream file(options.path);
+  if (!file) {
+    throw std::runtime_error("cannot read the detections file '" + options.path +
+                             "' (detector.csv: does it exist?)");
+  }
+  load(file, options.path);
+}
+
+CsvDetector::CsvDetector(std::istream& rows, const std::string& name, double stamp_tolerance_ms)
+    : tolerance_s_(1e-3 * stamp_tolerance_ms) {
+  load(rows, name);
+}
+
+void CsvDetector::load(std::istream& rows, const std::string& name) {
+  int number = 0;
+  for (std::string line; std::getline(rows, line);) {
+    ++number;
+    const std::vector<std::string> fields = split(line);
+    const bool blank = trimmed(line).empty() || fields[0].rfind('#', 0) == 0;
+    const bool header = number == 1 && fields.size() > 1 && fields[1] == "stamp";
+    if (blank || header) continue;
+    try {
+      if (fields.size() < 8 || fields.size() > 9) {
+        throw std::invalid_argument(std::to_string(fields.size()) + " columns");
+      }
+      boxes_[fields[0]][parse_stamp(fields[1])].push_back(parse_detection(fields));
+    } catch (const std::invalid_argument& error) {
+      throw std::runtime_error(name + ", line " + std::to_string(number) + ": " + error.what() +
+                               "; expected label,stamp,class,score,left,top,right,bottom[,track]");
+    }
+  }
+  if (rows.bad()) throw std::runtime_error("reading '" + name + "' failed");
+}
+
+std::vector<Detection> CsvDetector::detect(const DetectorInput& input) {
+  const auto found = boxes_.find(input.image.camera.label);
+  if (found == boxes_.end()) return {};
+  const auto& by_stamp = found->second;
+  const Stamp stamp = input.image.stamp;
+  auto nearest = by_stamp.lower_bound(stamp);
+  if (nearest != by_stamp.begin()) {
+    const auto before = std::prev(nearest);
+    if (nearest == by_stamp.end() || stamp - before->first <= nearest->first - stamp) {
+      nearest = before;
+    }
+  }
+  if (std::abs(seconds_between(stamp, nearest->first)) > tolerance_s_) return {};
+  return nearest->second;
+}
+
+}  // namespace lidar_upsampling

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the lidar_upsampling authors
+#include "lidar_upsampling/objects/detector.h"
+
+#include <stdexcept>
+
+#include "lidar_upsampling/objects/cluster_detector.h"
+#include "lidar_upsampling/objects/csv_detector.h"
+#include "lidar_upsampling/objects/network_detector.h"
+
+namespace lidar_upsampling {
+
+std::unique_ptr<Detector> make_detector(const DetectorOptions& options) {
+  switch (options.type) {
+    case DetectorOptions::Type::clusters:
+      return std::make_unique<ClusterDetector>(options.clusters);
+    case DetectorOptions::Type::network:
+      return std::make_unique<NetworkDetector>(options.network);
+    case DetectorOptions::Type::csv:
+      return std::make_unique<CsvDetector>(options.csv);
+  }
+  throw std::invalid_argument("make_detector: unknown detector type");
+}
+
+}  // namespace lidar_upsampling

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the lidar_upsampling authors
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "lidar_upsampling/objects/scene_segments.h"
+#include "lidar_upsampling/types.h"
+
+namespace lidar_upsampling {
+
+/// What a detector may look at. `key_scan` and `segments` (its segment_scan) are null unless the
+/// image is the key image, i.e. paired with a scan.
+struct DetectorInput {
+  const CameraImage& image;
+  const LidarScan* key_scan = nullptr;
+  const SceneSegments* segments = nullptr;
+  Pose T_camera_lidar = Pose::Identity();  ///< at the image's instant
+};
+
+/// @brief Finds object candidates on an image, whether they move or not.
+class Detector {
+ public:
+  Detector() = default;
+  Detector(const Detector&) = delete;
+  Detector& operator=(const Detector&) = delete;
+  virtual ~Detector() = default;
+  virtual std::vector<Detection> detect(const DetectorInput& input) = 0;
+};
+
+/// Road users by the size of their visible points; an object seen from behind is short.
+struct ClusterDetectorOptions {
+  int min_points = 15;
+  double min_range = 2.5, max_range = 70;    ///< m, horizontal, of the centroid
+  double min_height = 0.5, max_height = 4;   ///< m, of the highest point above the ground
+  double max_bottom = 1;                     ///< m, of the lowest point above the ground
+  double min_length = 0.3, max_length = 13;  ///< m, the longer side of the footprint
+  double max_width = 3.2;                    ///< m, the shorter side
+  int min_box_size = 8;                      ///< px, either side
+  double min_visible = 0.5;                  ///< share of its points that the camera sees unhidden
+};
+
+/// Any Darknet or ONNX model of the YOLO families (v2-v5, v8, FastestDet) that cv::dnn reads.
+struct NetworkDetectorOptions {
+  std::string model;    ///< .weights or .onnx
+  std::string config;   ///< .cfg, for Darknet
+  std::string classes;  ///< file with one class name per line, in the network's order
+  std::vector<std::string> wanted = {"car", "truck", "bus", "motorbike", "bicycle", "person"};
+  double min_confidence = 0.35;
+  double max_overlap = 0.45;  ///< IoU above which the weaker of two boxes goes
+  int input_width = 0;        ///< px; 0: what the .cfg says, 640 for ONNX
+  int input_height = 0;
+};
+
+struct CsvDetectorOptions {
+  std::string path;
+  double stamp_tolerance_ms = 5;
+};
+
+struct DetectorOptions {
+  enum class Type { clusters, network, csv };
+  Type type = Type::clusters;
+  ClusterDetectorOptions clusters;
+  NetworkDetectorOptions network;
+  CsvDetectorOptions csv;
+};
+
+/// @throw std::runtime_error, std::invalid_argument a missing or unreadable file, a bad setting.
+[[nodiscard]] std::unique_ptr<Detector> make_detector(const DetectorOptions& options);
+
+}  // namespace lidar_upsampling

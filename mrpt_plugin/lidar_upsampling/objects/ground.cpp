@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the lidar_upsampling authors
+#include "lidar_upsampling/objects/ground.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <queue>
+#include <stdexcept>
+#include <string>
+
+namespace lidar_upsampling {
+namespace {
+
+constexpr float kUnknown = std::numeric_limits<float>::infinity();
+constexpr double kSeedRange = 20;  ///< m, plane cells within are where the ground is followed from
+constexpr float kDeepest = -0.5F;  ///< m, echoes from mirrors and puddles lie further down
+constexpr std::size_t kGrain = 8192;  ///< points per task
+
+/// Square cells around the origin of a frame whose z is up.
+class CellGrid {
+ public:
+  CellGrid(const GroundOptions& options)
+      : half_(static_cast<int>(std::ceil(options.max_range / options.cell_size))),
+        size_(2 * half_ + 1),
+        per_metre_(static_cast<float>(1 / options.cell_size)) {}
+
+  [[nodiscard]] int size() const { return size_; }
+  [[nodiscard]] int num_cells() const { return size_ * size_; }
+  [[nodiscard]] bool contains(const Eigen::Vector3f& p) const {
+    return std::max(std::abs(p.x()), std::abs(p.y())) * per_metre_ < static_cast<float>(half_);
+  }
+  [[nodiscard]] int cell_of(const Eigen::Vector3f& p) const {
+    return index(static_cast<int>(column(p.x()) + 0.5F), static_cast<int>(column(p.y()) + 0.5F));
+  }
+  /// Distance of a cell's centre from the origin, in cells.
+  [[nodiscard]] double range_of(int cell) const {
+    return std::hypot(cell % size_ - half_, cell / size_ - half_);
+  }
+
+  /// Between the centres of the four cells around.
+  [[nodiscard]] float interpolate(const std::vector<float>& values,
+                                  const Eigen::Vector3f& p) const {
+    const float x = std::clamp(column(p.x()), 0.F, static_cast<float>(size_) - 1.001F);
+    const float y = std::clamp(column(p.y()), 0.F, static_cast<float>(size_) - 1.001F);
+    const int ix = static_cast<int>(x);
+    const int iy = static_cast<int>(y);
+    const float fx = x - static_cast<float>(ix);
+    const float fy = y - static_cast<float>(iy);
+    const float* near = &values[index(ix, iy)];
+    const float* far = near + size_;
+    return (1 - fy) * ((1 - fx) * near[0] + fx * near[1]) + fy * ((1 - fx) * far[0] + fx * far[1]);
+  }
+
+ private:
+  [[nodiscard]] float column(float x) const { return x * per_metre_ + static_cast<float>(half_); }
+  [[nodiscard]] int index(int ix, int iy) const { return iy * size_ + ix; }
+
+  int half_, size_;
+  float per_metre_;
+};
+
+/// The lowest point of each cell in a frame whose z is up, -1 where a cell is empty.
+std::vector<int> lowest_points(const std::vector<Eigen::Vector3f>& points,
+                               const Eigen::Isometry3f& T_up_lidar, const CellGrid& grid) {
+  std::vector<int> lowest(grid.num_cells(), -1);
+  std::vector<float> z(grid.num_cells(), kUnknown);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Eigen::Vector3f p = T_up_lidar * points[i];
+    if (!grid.contains(p)) continue;
+    const int cell = grid.cell_of(p);
+    if (p.z() < z[cell]) {
+      z[cell] = p.z();
+      lowest[cell] = static_cast<int>(i);
+    }
+  }
+  return lowest;
+}
+
+/// Rotates `up` to +Z and keeps the heading.
+Eigen::Matrix3d level_rotation(const Eigen::Vector3d& up) {
+  return Eigen::Quaterniond::FromTwoVectors(up, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+}
+
+std::optional<Plane> near_plane(const LidarScan& scan, const CellGrid& grid,
+                                const GroundOptions& options) {
+  PlaneOptions plane_options;
+  plane_options.up = scan.T_vehicle_lidar.linear().transpose() * Eigen::Vector3d::UnitZ();
+  plane_options.max_tilt_deg = options.max_tilt_deg;
+  plane_options.inlier_distance_m = options.plane_tolerance;
+  plane_options.min_inliers = options.min_plane_cells;
+  Eigen::Isometry3f T_up_lidar = Eigen::Isometry3f::Identity();
+  T_up_lidar.linear() = level_rotation(plane_options.up).cast<float>();
+  std::vector<int> low;
+  for (const int point : lowest_points(scan.points, T_up_lidar, grid)) {
+    if (point >= 0 && scan.points[point].norm() < options.plane_range) low.push_back(point);
+  }
+  const auto fit = estimate_plane(scan.points, low, plane_options);
+  // Seen from below it would be a ceiling.
+  if (!fit || fit->plane.d <= 0 || fit->plane.d > options.max_sensor_height) return std::nullopt;
+  return fit->plane;
+}
+
+/// Follows the ground from cell to cell, those first that lie nearest to ground already found, so
+/// that it goes round an object before it looks behind.
+class GroundFlood {
+ public:
+  GroundFlood(const CellGrid& grid, const std::vector<float>& low, const GroundOptions& options)
+      : grid_(grid), low_(low), options_(options), ground_(low.size(), kUnknown) {}
+
+  std::vector<float> run() {
+    seed();
+    for (std::size_t gap = 0; gap < waiting_.size();) {
+      if (waiting_[gap].empty()) {
+        ++gap;
+        continue;
+      }
+      const Reached reached = waiting_[gap].front();
+      waiting_[gap].pop();
+      if (ground_[reached.cell] == kUnknown && visit(reached, gap)) gap = 0;
+    }
+    return std::move(ground_);
+  }
+
+ private:
+  struct Reached {
+    int cell;
+    float height;  ///< of the ground it was reached from
+  };
+
+  void seed() {
+    const double max_cells = kSeedRange / options_.cell_size;
+    for (const bool anywhere : {false, true}) {
+      for (int cell = 0; cell < grid_.num_cells(); ++cell) {
+        if (std::abs(low_[cell]) > options_.plane_tolerance) continue;
+        if (anywhere || grid_.range_of(cell) < max_cells) push({cell, low_[cell]}, 0);
+      }
+      if (!waiting_.empty()) return;
+    }
+  }
+
+  /// @return whether the ground was found there.
+  bool visit(const Reached& reached, std::size_t gap) {
+    const double distance = static_cast<double>(gap) * options_.cell_size;
+    const double tolerance =
+        std::min(options_.max_step + options_.max_slope * distance, options_.max_height_jump);
+    const bool found = std::abs(low_[reached.cell] - reached.height) <= tolerance;
+    ground_[reached.cell] = found ? low_[reached.cell] : reached.height;
+    const std::size_t next_gap = found ? 1 : gap + 1;
+    const int x = reached.cell % grid_.size();
+    const int y = reached.cell / grid_.size();
+    const float height = ground_[reached.cell];
+    if (x > 0) push({reached.cell - 1, height}, next_gap);
+    if (x + 1 < grid_.size()) push({reached.cell + 1, height}, next_gap);
+    if (y > 0) push({reached.cell - grid_.size(), height}, next_gap);
+    if (y + 1 < grid_.size()) push({reached.cell + grid_.size(), height}, next_gap);
+    return found;
+  }
+
+  void push(const Reached& reached, std::size_t gap) {
+    if (ground_[reached.cell] != kUnknown) return;
+    if (gap >= waiting_.size()) waiting_.resize(gap + 1);
+    waiting_[gap].push(reached);
+  }
+
+  const CellGrid& grid_;
+  const std::vector<float>& low_;
+  const GroundOptions& options_;
+  std::vector<float> ground_;
+  std::vector<std::queue<Reached>> waiting_;  ///< by the cells since ground was last found
+};
+
+void check(const GroundOptions& options) {
+  if (!(options.cell_size > 0.1 && options.cell_size < 20 && options.max_range > 1 &&
+        options.max_range / options.cell_size < 1000)) {
+    throw std::invalid_argument("ground: cell_size " + std::to_string(options.cell_size) +
+                                " m must lie in (0.1, 20) and max_range " +
+                                std::to_string(options.max_range) + " m in (1, 1000 cells)");
+  }
+}
+
+}  // namespace
+
+Ground estimate_ground(const LidarScan& scan, const GroundOptions& options) {
+  check(options);
+  Ground ground;
+  const CellGrid grid(options);
+  const auto plane = near_plane(scan, grid, options);
+  if (!plane) return ground;
+  ground.status = GroundStatus::found;
+  ground.plane = *plane;
+
+  // z = 0 is the plane from here on.
+  Eigen::Isometry3f T_plane_lidar = Eigen::Isometry3f::Identity();
+  T_plane_lidar.linear() = level_rotation(plane->normal).cast<float>();
+  T_plane_lidar.translation().z() = static_cast<float>(plane->d);
+  std::vector<float> low(grid.num_cells(), kUnknown);
+  const std::vector<int> lowest = lowest_points(scan.points, T_plane_lidar, grid);
+  for (int cell = 0; cell < grid.num_cells(); ++cell) {
+    if (lowest[cell] >= 0) low[cell] = (T_plane_lidar * scan.points[lowest[cell]]).z();
+  }
+  const std::vector<float> local = GroundFlood(grid, low, options).run();
+
+  ground.height.resize(scan.size());
+  ground.is_ground.resize(scan.size());
+  const auto thickness = static_cast<float>(options.ground_thickness);
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, scan.size(), kGrain), [&](const auto& part) {
+    for (std::size_t i = part.begin(); i < part.end(); ++i) {
+      const Eigen::Vector3f p = T_plane_lidar * scan.points[i];
+      ground.height[i] = p.z() - grid.interpolate(local, p);
+      ground.is_ground[i] = ground.height[i] > kDeepest && ground.height[i] < thickness;
+    }
+  });
+  return ground;
+}
+
+}  // namespace lidar_upsampling

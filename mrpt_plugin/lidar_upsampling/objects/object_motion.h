@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the lidar_upsampling authors
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "lidar_upsampling/types.h"
+#include "lidar_upsampling/vision/absolute_pose.h"
+
+namespace lidar_upsampling {
+
+struct ObjectMotionOptions {
+  AbsolutePoseOptions pose;  ///< MLESAC and its refinement
+  int min_points = 12;       ///< tracked points; fewer: the ego-motion is used
+  double max_speed = 70;     ///< m/s over ground; faster: no consensus
+  /// Whether an object that the picture cannot tell from a parked one stays parked; off: the paper.
+  bool static_test = true;
+  double static_significance = 16.8;  ///< chi-square of 6 degrees of freedom, 1 % by default
+  double points_per_observation = 4;  ///< neighbouring tracks err alike: so many count as one
+};
+
+/// What is known when an object's motion is asked for.
+struct MotionQuery {
+  CameraModel camera;
+  Pose T_camera_lidar = Pose::Identity();
+  Pose T_lidar_t_lidar_k = Pose::Identity();  ///< ego-motion
+  Pose T_mov_predicted = Pose::Identity();    ///< object motion to expect, in the lidar frame at k
+  double dt = 0;                              ///< s, from the key scan to the image
+};
+
+/// @brief One object's motion from 3D-2D correspondences of its points (paper, section "Estimate
+/// Virtual Camera Pose"): P3P in MLESAC gives T_camera_t_lidar_k, which holds ego- and object motion
+/// (eq. 2); T_mov = T_lidar_k_camera_t(ego) * T_camera_t_lidar_k (eq. 3). Then the parked hypothesis: the
+/// reprojection cost of the ego-motion alone against the free motion's.
+/// @param correspondences points in the lidar frame at k, pixels on the image at t.
+/// @return motions, status and evidence; ids, box and points are the caller's to fill.
+[[nodiscard]] ObjectMotion estimate_object_motion(
+    const std::vector<Correspondence>& correspondences, const MotionQuery& query,
+    const ObjectMotionOptions& options);
+
+/// @brief Completes the motion's derived fields (T_mov, velocity, yaw rate) from `T_lidar_t_lidar_k` and
+/// the ego-motion.
+void set_motion(ObjectMotion& motion, const Pose& T_lidar_t_lidar_k, const MotionQuery& query);
+
+}  // namespace lidar_upsampling

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the lidar_upsampling authors
+#pragma once
+
+#include <opencv2/core/types.hpp>
+#include <vector>
+
+#include "lidar_upsampling/types.h"
+#include "lidar_upsampling/vision/absolute_pose.h"
+#include "lidar_upsampling/vision/klt.h"
+#include "lidar_upsampling/vision/projection.h"
+
+namespace lidar_upsampling {
+
+struct PointTrackOptions {
+  int max_points_per_object = 150;
+  int border_px = 8;            ///< nearer to the picture's border no point is taken
+};
+
+/// The static scene as an owner of points.
+inline constexpr int kStaticOwner = -1;
+
+/// @brief Points of the key scan put on the anchor image, and where they have gone since. One KLT call
+/// follows those of all objects, so that the pyramids are shared.
+struct PointTracks {
+  std::vector<int> scan_index;           ///< of each, in the key scan
+  std::vector<Eigen::Vector3d> point;    ///< lidar frame at k
+  std::vector<int> owner;                ///< the object candidate, or kStaticOwner
+  std::vector<cv::Point2f> anchor_px;    ///< where it was put
+  std::vector<cv::Point2f> last_px;      ///< where it was last found
+  std::vector<cv::Point2f> predicted_px; ///< where it was expected then
+  std::vector<std::uint8_t> found;       ///< on the last image
+
+  [[nodiscard]] std::size_t size() const { return point.size(); }
+};
+
+/// @brief Chooses up to `max_count` of the candidates, spread over the picture: the best-textured one
+/// of each cell of a grid over their bounding box.
+/// @param texture the smallest eigenvalue of the gradient matrix at each pixel (CV_32F).
+/// @return positions in `candidates`, in order.
+[[nodiscard]] std::vector<int> choose_spread(const std::vector<ProjectedPoint>& candidates,
+                                             const cv::Mat& texture, int max_count, int border_px);
+
+/// Adds points at their projections on the anchor image.
+void add_points(PointTracks& tracks, const std::vector<ProjectedPoint>& projected,
+                const std::vector<int>& chosen, const LidarScan& key_scan, int owner);
+
+/// @brief Finds the points on the next image. The picture around each is always the anchor's, so no
+/// drift adds up over images; the search starts where the motion since the last image leads.
+/// @param predicted_px where each point is expected by the motion model.
+void follow_points(PointTracks& tracks, const ImagePyramid& anchor, const ImagePyramid& next,
+                   const std::vector<cv::Point2f>& predicted_px, const KltOptions& options);
+
+/// The found points of one owner.
+[[nodiscard]] std::vector<Correspondence> correspondences_of(const PointTracks& tracks, int owner);
+
+}  // namespace lidar_upsampling

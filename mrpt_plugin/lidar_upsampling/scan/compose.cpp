@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the lidar_upsampling authors
+#include "lidar_upsampling/scan/compose.h"
+
+#include "lidar_upsampling/vision/projection.h"
+
+namespace lidar_upsampling {
+namespace {
+
+constexpr int kStatic = -1;
+
+// For each point of the key scan, the object that moves it: its position in `objects`, or kStatic.
+std::vector<int> owners_of_points(std::size_t num_points, const std::vector<ObjectMotion>& objects) {
+  std::vector<int> owner(num_points, kStatic);
+  for (int i = 0; i < static_cast<int>(objects.size()); ++i)
+    for (const int point : objects[i].points) {
+      int& current = owner[point];
+      if (current == kStatic || objects[current].num_inliers < objects[i].num_inliers) current = i;
+    }
+  return owner;
+}
+
+void move_points(const LidarScan& key_scan, const ScanMotion& motion, const std::vector<int>& owner,
+                 std::vector<Eigen::Vector3f>& moved) {
+  std::vector<Eigen::Isometry3f> transforms{motion.T_lidar_t_lidar_k.cast<float>()};
+  for (const ObjectMotion& object : motion.objects)
+    transforms.push_back(object.T_lidar_t_lidar_k.cast<float>());
+  moved.resize(key_scan.size());
+  for (std::size_t i = 0; i < moved.size(); ++i)
+    moved[i] = transforms[owner[i] + 1] * key_scan.points[i];
+}
+
+std::vector<std::uint8_t> seen_by_any(const std::vector<Camera>& cameras,
+                                      const Pose& T_vehicle_lidar,
+                                      const std::vector<Eigen::Vector3f>& points) {
+  std::vector<std::uint8_t> seen(points.size(), 0);
+  for (const Camera& camera : cameras) {
+    const Pose T_camera_lidar = camera.T_vehicle_camera.inverse() * T_vehicle_lidar;
+    for (const ProjectedPoint& point : project_scan(camera.model, T_camera_lidar, points))
+      seen[point.index] = 1;
+  }
+  return seen;
+}
+
+template <typename T>
+std::vector<T> taken(const std::vector<T>& values, const std::vector<int>& indices) {
+  std::vector<T> result;
+  if (values.empty()) return result;
+  result.reserve(indices.size());
+  for (const int i : indices) result.push_back(values[i]);
+  return result;
+}
+
+}  // namespace
+
+VirtualScan compose_virtual_scan(const LidarScan& key_scan, ScanMotion motion,
+                                 const std::string& output_label, const ComposeOptions& options) {
+  const std::vector<int> owner = owners_of_points(key_scan.size(), motion.objects);
+  std::vector<Eigen::Vector3f> moved;
+  move_points(key_scan, motion, owner, moved);
+
+  std::vector<std::uint8_t> keep(moved.size(), 1);
+  if (options.outside_view == OutsideView::drop)
+    keep = seen_by_any(motion.cameras, key_scan.T_vehicle_lidar, moved);
+  if (options.objects == MovingObjects::drop)
+    for (std::size_t i = 0; i < keep.size(); ++i)
+      if (owner[i] != kStatic && motion.objects[owner[i]].status == MotionStatus::moving) keep[i] = 0;
+
+  VirtualScan result;
+  for (int i = 0; i < static_cast<int>(keep.size()); ++i)
+    if (keep[i] != 0) result.source_index.push_back(i);
+  for (const int i : result.source_index)
+    result.track_id.push_back(owner[i] == kStatic ? kStatic : motion.objects[owner[i]].track_id);
+
+  result.scan.stamp = motion.stamp;
+  result.scan.label = output_label;
+  result.scan.T_vehicle_lidar = key_scan.T_vehicle_lidar;
+  result.scan.points = taken(moved, result.source_index);
+  result.scan.intensity = taken(key_scan.intensity, result.source_index);
+  result.scan.ring = taken(key_scan.ring, result.source_index);
+  result.scan.column = taken(key_scan.column, result.source_index);
+  result.scan.time_s = taken(key_scan.time_s, result.source_index);
+  result.scan.num_rings = key_scan.num_rings;
+  result.scan.num_columns = key_scan.num_columns;
+  result.key_stamp = key_scan.stamp;
+  result.objects = std::move(motion.objects);
+  result.T_lidar_t_lidar_k = motion.T_lidar_t_lidar_k;
+  result.ego_extrapolated = motion.ego_extrapolated;
+  return result;
+}
+
+}  // namespace lidar_upsampling

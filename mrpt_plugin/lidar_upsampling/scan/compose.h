@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the lidar_upsampling authors
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "lidar_upsampling/types.h"
+
+namespace lidar_upsampling {
+
+/// What becomes of the points that no camera sees: moved by the ego-motion, or left out.
+enum class OutsideView { ego, drop };
+
+/// Whether moving objects are part of the virtual scan: `drop` gives the static world only.
+enum class MovingObjects { keep, drop };
+
+struct ComposeOptions {
+  OutsideView outside_view = OutsideView::ego;
+  MovingObjects objects = MovingObjects::keep;
+};
+
+/// What a virtual scan is made of, besides the key scan.
+struct ScanMotion {
+  Stamp stamp;                                ///< of the image
+  Pose T_lidar_t_lidar_k = Pose::Identity();  ///< static scene
+  bool ego_extrapolated = false;
+  std::vector<ObjectMotion> objects;
+  std::vector<Camera> cameras;  ///< those that saw the scene at `stamp`
+};
+
+/// @brief The key scan as it would be at the image's instant: static points moved by T_S (paper, eq.
+/// 4), each object's by its own T_D (eq. 5). A point that two objects claim (seen by two cameras) goes
+/// to the one with more inliers. Intensity, ring, column and time stay with their points.
+/// @param output_label the sensor label of the virtual scan.
+[[nodiscard]] VirtualScan compose_virtual_scan(const LidarScan& key_scan, ScanMotion motion,
+                                               const std::string& output_label,
+                                               const ComposeOptions& options);
+
+}  // namespace lidar_upsampling

@@ -1,0 +1,2 @@
+#pragma once
+#include "lidar_upsampling/ego/se3.h"

@@ -1,0 +1,251 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the lidar_upsampling authors
+#include "lidar_upsampling/upsampler.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "lidar_upsampling/camera_view.h"
+#include "lidar_upsampling/ego/camera_ego.h"
+#include "lidar_upsampling/ego/scan_registration.h"
+#include "lidar_upsampling/se3.h"
+#include "lidar_upsampling/stopwatch.h"
+
+namespace lidar_upsampling {
+
+/// The last real scan and what its images need.
+struct LidarUpsampler::KeyScan {
+  LidarScan scan;
+  Pose T_rest_lidar_k = Pose::Identity();  ///< frame at rest: the first scan's
+  std::optional<SceneSegments> segments;   ///< made at its first image
+};
+
+/// What one image says.
+struct ImageResult {
+  Stamp stamp, instant;
+  Camera camera;
+  EgoStep ego;  ///< T_lidar_t_lidar_k
+  std::vector<ObjectMotion> objects;
+  std::vector<StageTime> timing;
+};
+
+namespace {
+
+double ms_between(Stamp a, Stamp b) { return std::abs(seconds_between(a, b)) * 1e3; }
+
+Pose in_lidar(const Pose& T_to_from_vehicle, const Pose& T_vehicle_lidar) {
+  return T_vehicle_lidar.inverse() * T_to_from_vehicle * T_vehicle_lidar;
+}
+
+// One camera's estimate, brought to the group's instant at constant velocity.
+ObjectMotion brought_to(const ImageResult& newest, const ImageResult& result, ObjectMotion object,
+                        Stamp key) {
+  const double own = seconds_between(key, result.instant);
+  const double wanted = seconds_between(key, newest.instant);
+  if (own == wanted) return object;
+  object.T_mov = exp_se3(Twist(log_se3(object.T_mov) * (wanted / own)));
+  object.T_lidar_t_lidar_k = newest.ego.T_to_from * object.T_mov;
+  return object;
+}
+
+std::shared_ptr<const Picture> make_picture(const CameraImage& image, Stamp instant,
+                                            const KltOptions& options,
+                                            std::vector<StageTime>& timing) {
+  const Stopwatch watch(timing, "image pyramid");
+  return std::make_shared<Picture>(
+      Picture{image, instant, ImagePyramid(image.gray, options)});
+}
+
+}  // namespace
+
+LidarUpsampler::LidarUpsampler(const Config& config)
+    : config_(config),
+      ego_motion_(config.ego_motion),
+      detector_(make_detector(config.detector)) {}
+
+LidarUpsampler::~LidarUpsampler() = default;
+
+void LidarUpsampler::expect_scans(std::vector<Stamp> stamps) {
+  std::sort(stamps.begin(), stamps.end());
+  expected_scans_ = std::move(stamps);
+}
+
+void LidarUpsampler::expect_cameras(const std::vector<std::string>& labels) {
+  expected_cameras_ = labels.size();
+}
+
+std::optional<VirtualScan> LidarUpsampler::insert_scan(LidarScan scan) {
+  auto waiting = flush();
+  if (key_ && scan.stamp <= key_->scan.stamp) return waiting;  // out of order: of no use any more
+  auto key = std::make_unique<KeyScan>();
+  if (key_) {
+    key->T_rest_lidar_k = key_->T_rest_lidar_k * scan_step(scan).inverse();
+    scan_period_s_ = seconds_between(key_->scan.stamp, scan.stamp);
+  }
+  key->scan = std::move(scan);
+  key_ = std::move(key);
+  for (auto& [label, view] : views_) view->anchor.reset();
+  return waiting;
+}
+
+std::optional<VirtualScan> LidarUpsampler::insert_image(const CameraImage& image) {
+  const Stamp instant = shifted(image.stamp, -1e-3 * config_.timing.camera_time_offset_ms);
+  std::optional<VirtualScan> waiting;
+  if (!group_.empty() &&
+      ms_between(group_.front().instant, instant) > config_.timing.group_tolerance_ms)
+    waiting = flush();
+
+  std::vector<StageTime> timing;
+  CameraView& view = view_of(image.camera);
+  const auto picture = make_picture(image, instant, config_.klt, timing);
+  if (key_ && is_key_image(instant))
+    start(view, picture, timing);
+  else if (is_due(instant))
+    process(view, *picture, timing);
+  view.last = picture;
+
+  const std::size_t cameras = std::max(expected_cameras_, views_.size());
+  if (waiting || group_.size() < cameras) return waiting;
+  return flush();
+}
+
+std::optional<VirtualScan> LidarUpsampler::flush() {
+  if (group_.empty()) return {};
+  const std::vector<ImageResult> group = std::exchange(group_, {});
+  const ImageResult& newest = *std::max_element(
+      group.begin(), group.end(),
+      [](const ImageResult& a, const ImageResult& b) { return a.instant < b.instant; });
+
+  ScanMotion motion;
+  motion.stamp = newest.stamp;
+  motion.T_lidar_t_lidar_k = newest.ego.T_to_from;
+  motion.ego_extrapolated = newest.ego.extrapolated;
+  std::vector<StageTime> timing;
+  for (const ImageResult& result : group) {
+    motion.cameras.push_back(result.camera);
+    for (const ObjectMotion& object : result.objects)
+      motion.objects.push_back(brought_to(newest, result, object, key_->scan.stamp));
+    timing.insert(timing.end(), result.timing.begin(), result.timing.end());
+  }
+  learn(motion.objects, newest.instant);
+
+  Stopwatch watch(timing, "composition");
+  VirtualScan scan = compose_virtual_scan(
+      key_->scan, std::move(motion), config_.virtual_label(key_->scan.label), config_.compose);
+  watch.stop();
+  scan.T_rest_lidar_t = key_->T_rest_lidar_k * scan.T_lidar_t_lidar_k.inverse();
+  scan.timing = std::move(timing);
+  return scan;
+}
+
+CameraView& LidarUpsampler::view_of(const Camera& camera) {
+  auto& view = views_[camera.label];
+  if (!view) view = std::make_unique<CameraView>(camera, config_.tracks, next_track_id_);
+  return *view;
+}
+
+bool LidarUpsampler::is_key_image(Stamp instant) const {
+  return ms_between(key_->scan.stamp, instant) <= config_.timing.pair_tolerance_ms;
+}
+
+bool LidarUpsampler::is_due(Stamp instant) const {
+  if (!key_) return false;
+  const double gap_s = 1e-3 * config_.timing.min_gap_ms;
+  const double age_s = seconds_between(key_->scan.stamp, instant);
+  if (age_s < gap_s || age_s > 1e-3 * config_.timing.max_key_age_ms) return false;
+  if (expected_scans_.empty())  // live: the next scan comes when the last one's period is over
+    return scan_period_s_ <= 0 || std::abs(age_s - scan_period_s_) >= gap_s;
+  const auto next = std::lower_bound(expected_scans_.begin(), expected_scans_.end(), instant);
+  return (next == expected_scans_.end() || seconds_between(instant, *next) >= gap_s) &&
+         (next == expected_scans_.begin() || seconds_between(*std::prev(next), instant) >= gap_s);
+}
+
+void LidarUpsampler::start(CameraView& view, const std::shared_ptr<const Picture>& anchor,
+                           std::vector<StageTime>& timing) {
+  if (!key_->segments) {
+    const Stopwatch watch(timing, "ground and clusters");
+    key_->segments = segment_scan(key_->scan, config_.segments);
+  }
+  const Stopwatch watch(timing, "candidates");
+  const auto step = ego_motion_.step(key_->scan.stamp, anchor->instant);
+  start_view(view, anchor, {key_->scan, *key_->segments, key_->T_rest_lidar_k},
+             ego_step(anchor->instant).T_to_from, known_motions_, !step, *detector_, config_);
+}
+
+void LidarUpsampler::process(CameraView& view, const Picture& picture,
+                             std::vector<StageTime>& timing) {
+  const bool anchor_is_near =
+      view.last && std::abs(seconds_between(key_->scan.stamp, view.last->instant)) <=
+                       1e-3 * config_.timing.max_anchor_gap_ms;
+  if (!view.anchor && !anchor_is_near) return;
+  if (!view.anchor) start(view, view.last, timing);
+
+  ImageResult result{picture.image.stamp, picture.instant, picture.image.camera,
+                     ego_step(picture.instant), {}, {}};
+  {
+    const Stopwatch watch(timing, "point tracking");
+    follow_view(view, picture, key_->scan, result.ego.T_to_from, config_);
+  }
+  if (!ego_motion_.step(key_->scan.stamp, picture.instant)) {
+    const Stopwatch watch(timing, "ego-motion");
+    result.ego = camera_step(view, picture, result.ego);
+  }
+  {
+    const Stopwatch watch(timing, "object motion");
+    result.objects = estimate_motions(view, picture, key_->scan, result.ego.T_to_from, config_);
+  }
+  result.timing = std::move(timing);
+  group_.push_back(std::move(result));
+}
+
+EgoStep LidarUpsampler::ego_step(Stamp instant) const {
+  const LidarScan& scan = key_->scan;
+  if (const auto step = ego_motion_.step(scan.stamp, instant))
+    return {in_lidar(step->T_to_from, scan.T_vehicle_lidar), step->extrapolated};
+  const double dt = seconds_between(scan.stamp, instant);
+  return {exp_se3(Twist(lidar_rate_ * dt)), true};
+}
+
+EgoStep LidarUpsampler::camera_step(const CameraView& view, const Picture& picture,
+                                    const EgoStep& predicted) {
+  const Pose T_camera_lidar =
+      view.camera.T_vehicle_camera.inverse() * key_->scan.T_vehicle_lidar;
+  const auto step =
+      estimate_camera_ego(correspondences_of(view.points, kStaticOwner), view.camera.model,
+                          T_camera_lidar, config_.camera_ego, predicted.T_to_from);
+  if (!step) return predicted;
+  const double dt = seconds_between(key_->scan.stamp, picture.instant);
+  lidar_rate_ = log_se3(step->T_lidar_t_lidar_k) / dt;
+  return {step->T_lidar_t_lidar_k, false};
+}
+
+Pose LidarUpsampler::scan_step(const LidarScan& next) {
+  const EgoStep predicted = ego_step(next.stamp);
+  if (ego_motion_.step(key_->scan.stamp, next.stamp)) return predicted.T_to_from;
+  const auto registration = register_scans(key_->scan.points, next.points, predicted.T_to_from,
+                                           config_.scan_registration);
+  if (!registration) return predicted.T_to_from;
+  lidar_rate_ =
+      log_se3(registration->T_target_source) / seconds_between(key_->scan.stamp, next.stamp);
+  return registration->T_target_source;
+}
+
+void LidarUpsampler::learn(const std::vector<ObjectMotion>& objects, Stamp instant) {
+  for (const ObjectMotion& object : objects) {
+    const bool moves = object.status == MotionStatus::moving;
+    if (!moves && object.status != MotionStatus::stationary) continue;
+    KnownMotion& known = known_motions_[object.track_id];
+    known.stamp = instant;
+    known.velocity_at_rest = Eigen::Vector3d::Zero();
+    if (moves) known.velocity_at_rest = key_->T_rest_lidar_k.linear() * object.velocity_lidar_k;
+    known.yaw_rate = moves ? object.yaw_rate : 0;
+  }
+  constexpr double kForgetAfter_s = 2;
+  for (auto motion = known_motions_.begin(); motion != known_motions_.end();)
+    motion = seconds_between(motion->second.stamp, instant) > kForgetAfter_s
+                 ? known_motions_.erase(motion)
+                 : std::next(motion);
+}
+
+}  // namespace lidar_upsampling

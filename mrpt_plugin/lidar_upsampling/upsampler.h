@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the lidar_upsampling authors
+#pragma once
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "lidar_upsampling/config.h"
+#include "lidar_upsampling/ego/ego_motion.h"
+#include "lidar_upsampling/se3.h"
+#include "lidar_upsampling/types.h"
+
+namespace lidar_upsampling {
+
+struct CameraView;
+struct ImageResult;
+struct KnownMotion;
+struct Picture;
+
+/// @brief Scans and images in, virtual scans out: the whole method, streaming. Observations come in the
+/// order of the log; memory stays at one scan and a few images per camera however long the log.
+///
+/// At the first image after a scan the object candidates of that scan are found and tracked
+/// (objects/), at every image their points are followed on the picture (vision/), ego-motion (ego/) and
+/// each object's own motion (objects/object_motion) are estimated, and the scan is moved (scan/).
+/// Images of several cameras that lie within `group_tolerance_ms` make one virtual scan.
+class LidarUpsampler {
+ public:
+  /// @throw std::invalid_argument, std::runtime_error settings that cannot work together, a detector's
+  /// missing file.
+  explicit LidarUpsampler(const Config& config);
+  ~LidarUpsampler();
+  LidarUpsampler(const LidarUpsampler&) = delete;
+  LidarUpsampler& operator=(const LidarUpsampler&) = delete;
+
+  /// Poses, odometry and fixes go in here; those of a whole log at once, or as they come.
+  EgoMotion& ego_motion() { return ego_motion_; }
+
+  /// Real scans that are to come, where a log on disk tells: no virtual scan is made within `min_gap_ms`
+  /// of one. Without it only the scans already inserted count.
+  void expect_scans(std::vector<Stamp> stamps);
+
+  /// @brief The cameras whose images are to come; a virtual scan is due as soon as each of them has
+  /// delivered its image of an instant. Without it, the cameras seen so far.
+  void expect_cameras(const std::vector<std::string>& labels);
+
+  /// @brief A real scan: it becomes the key scan.
+  /// @return the virtual scan of an earlier instant that still waited for other cameras, if any.
+  std::optional<VirtualScan> insert_scan(LidarScan scan);
+
+  /// @return the virtual scan at the image's instant if it is due (one key scan at least, not too close
+  /// to a real scan, all cameras in), or a waiting one of an earlier instant.
+  std::optional<VirtualScan> insert_image(const CameraImage& image);
+
+  /// @return the virtual scan that still waits for other cameras, if any.
+  std::optional<VirtualScan> flush();
+
+ private:
+  struct KeyScan;
+  [[nodiscard]] CameraView& view_of(const Camera& camera);
+  [[nodiscard]] bool is_key_image(Stamp instant) const;
+  [[nodiscard]] bool is_due(Stamp instant) const;
+  void start(CameraView& view, const std::shared_ptr<const Picture>& anchor,
+             std::vector<StageTime>& timing);
+  void process(CameraView& view, const Picture& picture, std::vector<StageTime>& timing);
+  [[nodiscard]] EgoStep ego_step(Stamp instant) const;
+  [[nodiscard]] EgoStep camera_step(const CameraView& view, const Picture& picture,
+                                    const EgoStep& predicted);
+  [[nodiscard]] Pose scan_step(const LidarScan& next);
+  void learn(const std::vector<ObjectMotion>& objects, Stamp instant);
+
+  Config config_;
+  EgoMotion ego_motion_;
+  std::unique_ptr<Detector> detector_;
+  std::unique_ptr<KeyScan> key_;
+  std::map<std::string, std::unique_ptr<CameraView>> views_;
+  std::vector<ImageResult> group_;              ///< of the instant under way
+  std::map<int, KnownMotion> known_motions_;    ///< by track id
+  Twist lidar_rate_ = Twist::Zero();            ///< of the last ego-motion, per second
+  std::vector<Stamp> expected_scans_;
+  std::size_t expected_cameras_ = 0;
+  double scan_period_s_ = 0;
+  int next_track_id_ = 0;
+};
+
+}  // namespace lidar_upsampling

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the lidar_upsampling authors
+#pragma once
+
+#include <cstdint>
+#include <opencv2/core/mat.hpp>
+#include <opencv2/core/types.hpp>
+#include <vector>
+
+namespace lidar_upsampling {
+
+struct KltOptions {
+  int window_px = 15;      ///< side of the square patch, odd
+  int pyramid_levels = 3;  ///< halvings above the full picture
+  int max_iterations = 30;
+  double epsilon_px = 0.005;             ///< a step this short ends the iteration
+  double max_forward_backward_px = 0.5;  ///< distance from the point after tracking there and back
+  double min_eigenvalue =
+      1e-3;  ///< of the patch's gradient matrix, in cv::calcOpticalFlowPyrLK's units
+  double max_residual = 20;  ///< mean absolute difference of the patches, gray levels
+};
+
+/// @throw std::invalid_argument
+void check(const KltOptions& options);
+
+/// @brief A picture at falling sizes with its gradients, made once and shared by all that track on
+/// it.
+class ImagePyramid {
+ public:
+  ImagePyramid() = default;
+
+  /// @param gray CV_8UC1; it is copied.
+  /// @throw std::invalid_argument an empty picture, one of another type, options out of range.
+  explicit ImagePyramid(const cv::Mat& gray, const KltOptions& options = {});
+
+  [[nodiscard]] bool empty() const { return levels_.empty(); }
+  [[nodiscard]] cv::Size size() const { return size_; }
+  [[nodiscard]] int window_px() const { return window_px_; }
+  [[nodiscard]] int pyramid_levels() const { return pyramid_levels_; }
+  [[nodiscard]] const std::vector<cv::Mat>& levels() const { return levels_; }
+
+ private:
+  std::vector<cv::Mat> levels_;  ///< picture, gradients, picture, ... as OpenCV wants them
+  cv::Size size_;
+  int window_px_ = 0;
+  int pyramid_levels_ = 0;
+};
+
+/// One entry per point; where `tracked` is 0 the others mean nothing.
+struct KltResult {
+  std::vector<cv::Point2f> points;
+  std::vector<std::uint8_t> tracked;
+  std::vector<float> forward_backward_px;
+  std::vector<float> residual;  ///< mean absolute difference of the patches, gray levels
+};
+
+/// @brief Follows points from one picture to another by pyramidal Lucas-Kanade (Bouguet 2001),
+/// there and back (Kalal et al., ICPR 2010). A point whose patch leaves either picture is not
+/// tracked.
+/// @param points pixels on the first picture.
+/// @param guesses where they may be on the second; as many as points, or none.
+/// @throw std::invalid_argument empty pyramids, of different sizes or made for another window;
+/// guesses of another number.
+[[nodiscard]] KltResult track_points(const ImagePyramid& from, const ImagePyramid& to,
+                                     const std::vector<cv::Point2f>& points,
+                                     const std::vector<cv::Point2f>& guesses = {},
+                                     const KltOptions& options = {});
+
+}  // namespace lidar_upsampling

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the lidar_upsampling authors
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "lidar_upsampling/types.h"
+
+namespace lidar_upsampling::kitti {
+
+/// The lines `name: number number ...` of a calibration file; lines with other content are left
+/// out.
+using CalibrationFile = std::map<std::string, std::vector<double>>;
+
+/// @throw std::runtime_error the file cannot be read.
+[[nodiscard]] CalibrationFile read_calibration_file(const std::string& path);
+
+/// The rig of one recording day. The vehicle frame is that of the OXTS unit: +X forward, +Y left,
+/// +Z up.
+struct Calibration {
+  Pose T_vehicle_lidar = Pose::Identity();
+  std::map<int, Camera>
+      cameras;  ///< by KITTI's number 0 to 3; the rectified model, without distortion
+};
+
+/// @brief Reads `calib_imu_to_velo.txt`, `calib_velo_to_cam.txt` and `calib_cam_to_cam.txt`.
+/// @throw std::runtime_error with file and entry: missing or malformed.
+[[nodiscard]] Calibration read_calibration(const std::string& folder);
+
+}  // namespace lidar_upsampling::kitti

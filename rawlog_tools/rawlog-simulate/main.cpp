@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the lidar_upsampling authors
+#include <cmath>
+#include <iostream>
+
+#include "common/tool_main.h"
+#include "simulate.h"
+
+namespace {
+
+using lidar_upsampling::sim::SimulationSummary;
+
+void print(const SimulationSummary& s, const std::string& output, double duration_s) {
+  std::cout << output << ": " << duration_s << " s, " << s.num_scans << " scans of "
+            << std::lround(s.mean_points) << " points on average, " << s.num_images << " images, "
+            << s.num_ego << " ego poses; " << s.num_moving << " moving and " << s.num_parked
+            << " standing traffic participants; " << s.num_truth_scans << " truth scans\n";
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  using namespace lidar_upsampling;  // NOLINT(google-build-using-namespace)
+  CLI::App app("Makes a log of a simulated town street, with exact truth beside it",
+               "rawlog-simulate");
+  sim::SimulationJob job;
+  std::string scenario_path;
+  double duration_s = 0;
+  std::uint32_t seed = 0;
+  app.add_option("--scenario", scenario_path, "the world, its vehicles and sensors (INI)")
+      ->required();
+  app.add_option("--output", job.output, "the log to make (.rawlog)")->required();
+  app.add_option("--truth", job.truth, "log of a scan and the exact pose at every image's stamp");
+  const auto* duration =
+      app.add_option("--duration", duration_s, "seconds, instead of the scenario's")
+          ->check(CLI::Range(0., 3600.));
+  const auto* seed_option = app.add_option("--seed", seed, "instead of the scenario's");
+  app.add_flag("--overwrite", job.overwrite, "replace existing files");
+  return run_tool(app, argc, argv, [&] {
+    job.scenario = sim::load_scenario(scenario_path);
+    if (!duration->empty()) job.scenario.duration_s = duration_s;
+    if (!seed_option->empty()) job.scenario.seed = seed;
+    SimulationSummary summary;
+    {
+      Progress progress("simulating");
+      summary = sim::simulate(job, std::ref(progress));
+    }
+    print(summary, job.output, job.scenario.duration_s);
+  });
+}

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the lidar_upsampling authors
+#pragma once
+
+#include <mrpt/config/CConfigFileBase.h>
+
+#include <optional>
+
+#include "lidar_upsampling/types.h"
+#include "simulator/motion.h"
+
+namespace lidar_upsampling::sim {
+
+/// A vehicle (or pedestrian) with a motion of its own.
+struct VehicleSpec {
+  std::string name;
+  std::string type = "car";  ///< car, van, truck, bus, pedestrian
+  MotionProfile motion;
+  std::optional<Eigen::Vector3f> color;  ///< linear RGB, 0 to 1; none: by the seed
+};
+
+/// A straight street along +X of the world, its centre line on y = 0, traffic on the right.
+struct StreetSpec {
+  int lanes_per_direction = 2;
+  double lane_width = 3.4;
+  double crossing_x = 45;    ///< where a side street crosses; NaN: nowhere
+  double parked_cars = 0.7;  ///< share of the parking places that are taken
+  double trees = 0.7;        ///< share of the places for them, as below
+  double poles = 1;
+  double buildings = 1;
+  double pedestrians = 0.3;
+};
+
+struct EgoSpec {
+  MotionProfile motion;
+  double pitch_sway = 0, roll_sway = 0;  ///< amplitudes in rad, of the body on its springs
+  double heave = 0;                      ///< m
+};
+
+struct LidarSpec {
+  std::string label = "LIDAR";
+  std::vector<double> elevations;  ///< rad, of each ring, the lowest first
+  int columns = 1900;
+  double rate_hz = 10, phase_s = 0;
+  double noise_m = 0.02;  ///< sigma of the range
+  double dropout = 0.01;  ///< share of the returns that are missing by chance
+  double min_range_m = 1, max_range_m = 120;
+  Pose T_vehicle_lidar = Pose::Identity();
+};
+
+struct CameraSpec {
+  Camera camera;
+  double rate_hz = 30, phase_s = 0;
+  double noise = 1.5;                           ///< sigma of the gray value
+  std::vector<std::pair<double, double>> gain;  ///< (t, factor on the light), linear between
+};
+
+enum class EgoPoseKind { none, pose, odometry, gnss };
+
+struct EgoPoseSpec {
+  EgoPoseKind kind = EgoPoseKind::pose;
+  std::string label = "POSE";
+  double rate_hz = 100;
+  double latitude_deg = 47.4979, longitude_deg = 19.0402;  ///< of the world's origin, for gnss
+};
+
+enum class LogFormat { observations, sensory_frames };
+
+struct Scenario {
+  std::string name = "street";
+  double duration_s = 3;
+  std::uint32_t seed = 1;
+  EgoSpec ego;
+  LidarSpec lidar;
+  std::vector<CameraSpec> cameras;
+  std::vector<VehicleSpec> vehicles;
+  StreetSpec street;
+  EgoPoseSpec ego_poses;
+  LogFormat format = LogFormat::observations;
+  std::string carrier = "auto";
+};
+
+/// @brief Reads a scenario; what is not given keeps its default, and without any [camera.*] there
+/// is one, CAM0.
+/// @throw std::invalid_argument naming section and key: unknown, or a value that cannot be.
+[[nodiscard]] Scenario scenario_from_config(const mrpt::config::CConfigFileBase& config);
+/// @throw std::runtime_error the file cannot be read.
+[[nodiscard]] Scenario load_scenario(const std::string& path);
+
+/// The elevations of the rings of a 64-beam spinning scanner with a dense upper and a sparse lower
+/// block.
+[[nodiscard]] std::vector<double> hdl64_elevations();
+
+/// 2026-01-01 00:00 UTC: where the simulated time starts.
+[[nodiscard]] Stamp start_stamp();
+/// The stamp of event `index` of a stream, to the nearest tick, without accumulated error.
+[[nodiscard]] Stamp stamp_of(int index, double rate_hz, double phase_s);
+/// Seconds since the start.
+[[nodiscard]] inline double time_of(Stamp stamp) { return seconds_between(start_stamp(), stamp); }
+/// Every stamp of a stream within the scenario's duration, both ends included.
+[[nodiscard]] std::vector<Stamp> stamps_of(double rate_hz, double phase_s, double duration_s);
+
+}  // namespace lidar_upsampling::sim

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the lidar_upsampling authors
+#include "simulator/world.h"
+
+#include "simulator/noise.h"
+
+namespace lidar_upsampling::sim {
+
+namespace {
+
+constexpr double kSight = 130;
+
+Object vehicle_of(const VehicleSpec& spec, std::uint32_t seed) {
+  Object object = make_vehicle(spec.type, seed, spec.color);
+  object.motion = spec.motion;
+  return object;
+}
+
+}  // namespace
+
+Pose World::T_world_object(int id, double t) const {
+  const Object& object = objects.at(id);
+  return state_at(object.motion, t).pose();
+}
+
+Pose World::T_world_vehicle(double t) const {
+  Pose T = state_at(ego.motion, t).pose();
+  T.translation().z() = ego.heave * std::sin(2 * M_PI * 1.3 * t);
+  T.rotate(Eigen::AngleAxisd(ego.pitch_sway * std::sin(2 * M_PI * 0.9 * t + 0.4),
+                             Eigen::Vector3d::UnitY()));
+  T.rotate(Eigen::AngleAxisd(ego.roll_sway * std::sin(2 * M_PI * 0.7 * t + 1.1),
+                             Eigen::Vector3d::UnitX()));
+  return T;
+}
+
+World build_world(const Scenario& scenario) {
+  World world;
+  world.street = scenario.street;
+  world.ego = scenario.ego;
+  double x_from = scenario.ego.motion.x, x_to = x_from;
+  for (double t = 0; t <= scenario.duration_s; t += 0.5) {
+    const double x = state_at(scenario.ego.motion, t).x;
+    x_from = std::min(x_from, x);
+    x_to = std::max(x_to, x);
+  }
+  world.objects = build_street(scenario.street, x_from - kSight, x_to + kSight, scenario.seed);
+  for (std::size_t i = 0; i < scenario.vehicles.size(); ++i) {
+    world.objects.push_back(vehicle_of(scenario.vehicles[i], hash(scenario.seed, 1000 + i)));
+  }
+  for (std::size_t i = 0; i < world.objects.size(); ++i) world.objects[i].id = static_cast<int>(i);
+  return world;
+}
+
+}  // namespace lidar_upsampling::sim

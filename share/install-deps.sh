@@ -1,0 +1,33 @@
+#!/usr/bin/env bash
+# Installs the Debian 12 packages that lidar_upsampling needs; does nothing when all are there.
+#   share/install-deps.sh           to build and run
+#   share/install-deps.sh --tests   also what the tests and benchmarks use
+set -euo pipefail
+
+packages=(
+  g++ cmake ninja-build
+  libmrpt-dev mrpt-apps libopencv-dev libceres-dev libeigen3-dev libgeographiclib-dev libtbb-dev
+  libnanoflann-dev libcli11-dev nlohmann-json3-dev zlib1g-dev
+)
+case "${1:-}" in
+  "") ;;
+  --tests) packages+=(libgtest-dev libbenchmark-dev clang-format xvfb x11-apps) ;;
+  *) echo "usage: $0 [--tests]" >&2; exit 2 ;;
+esac
+
+missing=()
+for package in "${packages[@]}"; do
+  status=$(dpkg-query --show --showformat='${db:Status-Status}' "$package" 2>/dev/null || true)
+  [ "$status" = installed ] || missing+=("$package")
+done
+[ ${#missing[@]} -gt 0 ] || exit 0
+
+if [ "$(id -u)" = 0 ]; then as_root=(); else as_root=(sudo); fi
+if [ ${#as_root[@]} -gt 0 ] && ! command -v sudo >/dev/null; then
+  echo "install-deps: these packages are missing and sudo is not there to install them: ${missing[*]}" >&2
+  exit 1
+fi
+echo "Installing: ${missing[*]}"
+"${as_root[@]}" apt-get update -qq
+"${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends \
+  "${missing[@]}" >/dev/null

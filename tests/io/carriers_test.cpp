@@ -1,0 +1,335 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the lidar_upsampling authors
+#include "lidar_upsampling/io/carriers.h"
+
+#include <gtest/gtest.h>
+#include <mrpt/io/lazy_load_path.h>
+#include <mrpt/maps/CPointsMapXYZI.h>
+#include <mrpt/maps/CSimplePointsMap.h>
+#include <mrpt/obs/CObservation3DRangeScan.h>
+#include <mrpt/obs/CObservationOdometry.h>
+#include <mrpt/obs/CObservationPointCloud.h>
+#include <mrpt/obs/CObservationVelodyneScan.h>
+#include <mrpt/version.h>
+
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include <random>
+
+#include "lidar_upsampling/io/rawlog_stream.h"
+#include "test_folder.h"
+
+namespace lidar_upsampling {
+namespace {
+
+using mrpt::obs::CObservation;
+using mrpt::obs::CObservation3DRangeScan;
+using mrpt::obs::CObservationPointCloud;
+using mrpt::obs::CObservationVelodyneScan;
+
+constexpr float kHalfStep = 0.5F / 255.F;  // of an 8-bit intensity
+
+// 16 rings of 90 points, one of them in the very origin.
+LidarScan full_scan() {
+  LidarScan scan;
+  scan.stamp = Stamp(mrpt::Clock::duration(132000000000000007LL));
+  scan.label = "LIDAR";
+  scan.T_vehicle_lidar.translate(Eigen::Vector3d(0.3, -0.1, 1.7));
+  scan.T_vehicle_lidar.rotate(Eigen::AngleAxisd(0.2, Eigen::Vector3d(1, 2, 3).normalized()));
+  scan.num_rings = 18;  // the lowest and the highest beam saw nothing
+  scan.num_columns = 100;
+  std::mt19937 random(3);
+  std::uniform_real_distribution<float> unit(0.F, 1.F);
+  for (std::uint16_t ring = 1; ring < 17; ++ring) {
+    for (std::uint16_t column = 0; column < 90; ++column) {
+      const float range = 2.F + 60.F * unit(random);
+      const float azimuth = 0.0628F * static_cast<float>(column);
+      scan.points.emplace_back(range * std::cos(azimuth), range * std::sin(azimuth),
+                               0.02F * range * static_cast<float>(ring - 8));
+      scan.ring.push_back(ring);
+      scan.column.push_back(column);
+      scan.intensity.push_back(unit(random));
+      scan.time_s.push_back(0.001F * static_cast<float>(column));
+    }
+  }
+  scan.points[500].setZero();
+  return scan;
+}
+
+// Through the bytes of a log, as only what is serialised counts.
+CObservation::Ptr stored(const CObservation& observation) {
+  std::vector<std::uint8_t> bytes;
+  mrpt::serialization::ObjectToOctetVector(&observation, bytes);
+  mrpt::serialization::CSerializable::Ptr object;
+  mrpt::serialization::OctetVectorToObject(bytes, object);
+  return std::dynamic_pointer_cast<CObservation>(object);
+}
+
+LidarScan round_trip(const LidarScan& scan, Carrier carrier, const CObservation* like = nullptr) {
+  const auto observation = stored(*observation_from_scan(scan, carrier, like));
+  return scan_from_observation(*observation).value();
+}
+
+void expect_same_points(const LidarScan& read, const LidarScan& scan) {
+  ASSERT_EQ(read.size(), scan.size());
+  EXPECT_EQ(read.stamp, scan.stamp);
+  EXPECT_EQ(read.label, scan.label);
+  EXPECT_TRUE(read.T_vehicle_lidar.isApprox(scan.T_vehicle_lidar, 1e-12));
+  for (std::size_t i = 0; i < scan.size(); ++i) {
+    EXPECT_LE((read.points[i] - scan.points[i]).norm(), scan.points[i].isZero() ? 2e-6F : 0.F);
+    EXPECT_FALSE(read.points[i].isZero(0.F));
+  }
+}
+
+void expect_same_intensity(const LidarScan& read, const LidarScan& scan, float tolerance) {
+  ASSERT_EQ(read.intensity.size(), scan.intensity.size());
+  for (std::size_t i = 0; i < scan.size(); ++i) {
+    EXPECT_NEAR(read.intensity[i], scan.intensity[i], tolerance + 1e-6F);
+  }
+}
+
+TEST(Carriers, names_are_those_of_the_settings) {
+  for (const char* const name : {"auto", "3drangescan", "pointcloud", "same"}) {
+    EXPECT_STREQ(to_string(carrier_from_string(name)), name);
+  }
+  EXPECT_THROW(static_cast<void>(carrier_from_string("velodyne")), std::invalid_argument);
+}
+
+TEST(Carriers, a_3d_range_scan_keeps_points_intensity_ring_and_column) {
+  const LidarScan scan = full_scan();
+  const LidarScan read = round_trip(scan, Carrier::range_scan_3d);
+  expect_same_points(read, scan);
+  expect_same_intensity(read, scan, kHalfStep);
+  EXPECT_EQ(read.ring, scan.ring);
+  EXPECT_EQ(read.column, scan.column);
+  EXPECT_EQ(read.num_rings, scan.num_rings);
+  EXPECT_EQ(read.num_columns, scan.num_columns);
+  EXPECT_TRUE(read.time_s.empty());
+}
+
+TEST(Carriers, a_3d_range_scan_keeps_ring_and_column_without_intensity) {
+  LidarScan scan = full_scan();
+  scan.intensity.clear();
+  const LidarScan read = round_trip(scan, Carrier::range_scan_3d);
+  expect_same_points(read, scan);
+  EXPECT_TRUE(read.intensity.empty());
+  EXPECT_EQ(read.ring, scan.ring);
+  EXPECT_EQ(read.column, scan.column);
+  EXPECT_EQ(read.num_rings, scan.num_rings);
+  EXPECT_EQ(read.num_columns, scan.num_columns);
+}
+
+TEST(Carriers, a_3d_range_scan_keeps_ring_and_intensity_without_column) {
+  LidarScan scan = full_scan();
+  scan.column.clear();
+  scan.num_columns = 0;
+  const LidarScan read = round_trip(scan, Carrier::range_scan_3d);
+  expect_same_points(read, scan);
+  expect_same_intensity(read, scan, kHalfStep);
+  EXPECT_EQ(read.ring, scan.ring);
+  EXPECT_EQ(read.num_rings, scan.num_rings);
+  EXPECT_TRUE(read.column.empty());
+}
+
+TEST(Carriers, a_3d_range_scan_keeps_intensity_without_ring) {
+  LidarScan scan = full_scan();
+  scan.ring.clear();
+  scan.column.clear();
+  scan.num_rings = scan.num_columns = 0;
+  const LidarScan read = round_trip(scan, Carrier::range_scan_3d);
+  expect_same_points(read, scan);
+  expect_same_intensity(read, scan, kHalfStep);
+  EXPECT_TRUE(read.ring.empty());
+  EXPECT_TRUE(read.column.empty());
+}
+
+TEST(Carriers, bare_points_go_through_every_class) {
+  LidarScan scan = full_scan();
+  scan.ring.clear();
+  scan.column.clear();
+  scan.intensity.clear();
+  scan.time_s.clear();
+  for (const Carrier carrier : {Carrier::range_scan_3d, Carrier::point_cloud}) {
+    const LidarScan read = round_trip(scan, carrier);
+    expect_same_points(read, scan);
+    EXPECT_TRUE(read.intensity.empty());
+    EXPECT_TRUE(read.ring.empty());
+  }
+}
+
+TEST(Carriers, an_empty_scan_goes_through_every_class) {
+  LidarScan scan;
+  scan.label = "LIDAR";
+  for (const Carrier carrier : {Carrier::range_scan_3d, Carrier::point_cloud}) {
+    EXPECT_EQ(round_trip(scan, carrier).size(), 0U);
+  }
+}
+
+TEST(Carriers, a_point_cloud_keeps_points_and_exact_intensity) {
+  const LidarScan scan = full_scan();
+  const LidarScan read = round_trip(scan, Carrier::point_cloud);
+  expect_same_points(read, scan);
+  expect_same_intensity(read, scan, 0.F);
+}
+
+TEST(Carriers, same_follows_the_real_scans) {
+  const LidarScan scan = full_scan();
+  const CObservationPointCloud cloud;
+  const CObservation3DRangeScan depth;
+  const auto is_cloud = [&](Carrier carrier, const CObservation* like) {
+    return IS_CLASS(*observation_from_scan(scan, carrier, like), CObservationPointCloud);
+  };
+  EXPECT_TRUE(is_cloud(Carrier::same, &cloud));
+  EXPECT_FALSE(is_cloud(Carrier::same, &depth));
+#if MRPT_VERSION < 0x020b03
+  EXPECT_FALSE(is_cloud(Carrier::automatic, &cloud));
+  EXPECT_FALSE(is_cloud(Carrier::same, nullptr));
+#endif
+}
+
+#if MRPT_VERSION < 0x020d02
+TEST(Carriers, a_velodyne_scan_keeps_ring_and_time_too) {
+  const LidarScan scan = full_scan();
+  const CObservationVelodyneScan like;
+  const LidarScan read = round_trip(scan, Carrier::same, &like);
+  expect_same_points(read, scan);
+  expect_same_intensity(read, scan, kHalfStep);
+  EXPECT_EQ(read.ring, scan.ring);
+  ASSERT_EQ(read.time_s.size(), scan.time_s.size());
+  for (std::size_t i = 0; i < scan.size(); ++i) EXPECT_NEAR(read.time_s[i], scan.time_s[i], 1e-7F);
+}
+#endif
+
+TEST(Carriers, a_scan_that_contradicts_itself_is_refused) {
+  LidarScan scan = full_scan();
+  scan.ring.pop_back();
+  EXPECT_THROW(static_cast<void>(observation_from_scan(scan, Carrier::automatic)),
+               std::invalid_argument);
+  scan = full_scan();
+  scan.points[3].x() = std::numeric_limits<float>::quiet_NaN();
+  EXPECT_THROW(static_cast<void>(observation_from_scan(scan, Carrier::automatic)),
+               std::invalid_argument);
+}
+
+TEST(Carriers, other_observations_are_no_scans) {
+  mrpt::obs::CObservationOdometry odometry;
+  EXPECT_FALSE(is_lidar_scan(odometry));
+  EXPECT_FALSE(scan_from_observation(odometry));
+}
+
+TEST(Carriers, invalid_points_of_foreign_scans_are_left_out) {
+  CObservation3DRangeScan depth;
+  depth.hasPoints3D = true;
+  depth.resizePoints3DVectors(3);
+  depth.points3D_x = {0.F, 1.F, std::numeric_limits<float>::quiet_NaN()};
+  depth.points3D_y = {0.F, 2.F, 0.F};
+  depth.points3D_z = {0.F, 3.F, 0.F};
+  depth.points3D_idxs_x.assign(3, 0);
+  depth.points3D_idxs_y.assign(3, 0);
+  const LidarScan scan = scan_from_observation(depth).value();
+  ASSERT_EQ(scan.size(), 1U);
+  EXPECT_EQ(scan.points[0], Eigen::Vector3f(1, 2, 3));
+  EXPECT_TRUE(scan.ring.empty());
+}
+
+TEST(Carriers, eight_bit_intensities_of_foreign_point_clouds_are_scaled) {
+  const auto map = mrpt::maps::CPointsMapXYZI::Create();
+  map->resize(2);
+  map->setPointFast(0, 1, 0, 0);
+  map->setPointFast(1, 2, 0, 0);
+  map->setPointIntensity(0, 51.F);
+  map->setPointIntensity(1, 255.F);
+  CObservationPointCloud cloud;
+  cloud.pointcloud = map;
+  const LidarScan scan = scan_from_observation(cloud).value();
+  EXPECT_FLOAT_EQ(scan.intensity.at(0), 0.2F);
+  EXPECT_FLOAT_EQ(scan.intensity.at(1), 1.F);
+}
+
+// A wall 4 m ahead, seen by a depth camera of 8 x 6 pixels.
+CObservation3DRangeScan wall(bool range_is_depth) {
+  CObservation3DRangeScan depth;
+  depth.sensorLabel = "KINECT";
+  depth.cameraParams.ncols = 8;
+  depth.cameraParams.nrows = 6;
+  depth.cameraParams.setIntrinsicParamsFromValues(10, 10, 3.5, 2.5);
+  depth.hasRangeImage = true;
+  depth.range_is_depth = range_is_depth;
+  depth.rangeUnits = 0.001F;
+  depth.rangeImage_setSize(6, 8);
+  for (int row = 0; row < 6; ++row) {
+    for (int column = 0; column < 8; ++column) {
+      const double ray = std::hypot(1., (column - 3.5) / 10, (row - 2.5) / 10);
+      depth.rangeImage(row, column) =
+          static_cast<std::uint16_t>(std::lround(4000 * (range_is_depth ? 1. : ray)));
+    }
+  }
+  depth.rangeImage(2, 5) = 0;  // no return
+  return depth;
+}
+
+TEST(Carriers, a_depth_camera_is_a_lidar_too) {
+  for (const bool range_is_depth : {true, false}) {
+    CObservation3DRangeScan depth = wall(range_is_depth);
+    const LidarScan scan = scan_from_observation(depth).value();
+    ASSERT_EQ(scan.size(), 47U);
+    EXPECT_EQ(scan.num_rings, 6);
+    EXPECT_EQ(scan.num_columns, 8);
+    for (std::size_t i = 0; i < scan.size(); ++i) {
+      const int row = 5 - scan.ring[i];
+      const Eigen::Vector3f expected(4.F, -0.4F * (static_cast<float>(scan.column[i]) - 3.5F),
+                                     -0.4F * (static_cast<float>(row) - 2.5F));
+      EXPECT_LT((scan.points[i] - expected).norm(), 2e-3F);
+    }
+  }
+}
+
+TEST(Carriers, external_points_are_loaded_and_unloaded) {
+  const TestFolder folder;
+  mrpt::io::setLazyLoadPathBase(folder.path().string());
+  const LidarScan scan = full_scan();
+  auto observation = std::dynamic_pointer_cast<CObservation3DRangeScan>(
+      observation_from_scan(scan, Carrier::range_scan_3d));
+  observation->points3D_convertToExternalStorage("points.bin", folder.path().string());
+  const auto read = std::dynamic_pointer_cast<CObservation3DRangeScan>(stored(*observation));
+  ASSERT_TRUE(read->points3D_x.empty());
+  expect_same_points(scan_from_observation(*read).value(), scan);
+  EXPECT_TRUE(read->points3D_x.empty());
+}
+
+TEST(Carriers, external_point_clouds_are_loaded_and_unloaded) {
+  const TestFolder folder;
+  mrpt::io::setLazyLoadPathBase(folder.path().string());
+  const std::vector<float> points = {1, 2, 3, 0.5F, 4, 5, 6, 0.25F};
+  std::ofstream(folder / "points.bin", std::ios::binary)
+      .write(reinterpret_cast<const char*>(points.data()), 32);
+  CObservationPointCloud cloud;
+  cloud.setAsExternalStorage("points.bin",
+                             CObservationPointCloud::ExternalStorageFormat::KittiBinFile);
+  const LidarScan scan = scan_from_observation(cloud).value();
+  ASSERT_EQ(scan.size(), 2U);
+  EXPECT_EQ(scan.points[1], Eigen::Vector3f(4, 5, 6));
+  EXPECT_FLOAT_EQ(scan.intensity[1], 0.25F);
+  EXPECT_FALSE(cloud.pointcloud);
+}
+
+TEST(Carriers, a_missing_external_file_is_named) {
+  const TestFolder folder;
+  mrpt::io::setLazyLoadPathBase(folder.path().string());
+  CObservationPointCloud cloud;
+  cloud.sensorLabel = "LIDAR";
+  cloud.setAsExternalStorage("none.bin",
+                             CObservationPointCloud::ExternalStorageFormat::KittiBinFile);
+  try {
+    static_cast<void>(scan_from_observation(cloud));
+    FAIL();
+  } catch (const std::runtime_error& error) {
+    const std::string text = error.what();
+    EXPECT_NE(text.find("none.bin"), std::string::npos) << text;
+    EXPECT_NE(text.find("LIDAR"), std::string::npos) << text;
+  }
+}
+
+}  // namespace
+}  // namespace lidar_upsampling

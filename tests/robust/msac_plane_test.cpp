@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the lidar_upsampling authors
+#include "lidar_upsampling/robust/msac_plane.h"
+
+#include <gtest/gtest.h>
+
+#include <numeric>
+
+namespace lidar_upsampling {
+namespace {
+
+constexpr double kDegree = 3.14159265358979323846 / 180;
+
+struct Scene {
+  std::vector<Eigen::Vector3f> points;
+  Plane truth;
+};
+
+/// A sloping ground of 2 cm noise, and clutter above it.
+Scene ground_with_clutter(int num_points, double clutter, double slope_deg = 4) {
+  Scene scene;
+  scene.truth.normal =
+      Eigen::Vector3d(std::sin(slope_deg * kDegree), 0, std::cos(slope_deg * kDegree));
+  scene.truth.d = 1.7;
+  std::mt19937 generator(7);
+  std::uniform_real_distribution<double> across(-40, 40);
+  std::uniform_real_distribution<double> height(0.3, 5);
+  std::normal_distribution<double> noise(0, 0.02);
+  for (int i = 0; i < num_points; ++i) {
+    const double above = i < clutter * num_points ? height(generator) : noise(generator);
+    const double x = across(generator);
+    const double y = across(generator);
+    const Eigen::Vector3d& n = scene.truth.normal;
+    scene.points.push_back(
+        Eigen::Vector3d(x, y, (above - scene.truth.d - n.x() * x - n.y() * y) / n.z())
+            .cast<float>());
+  }
+  return scene;
+}
+
+double angle_deg(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+  return std::acos(std::min(1., a.dot(b))) / kDegree;
+}
+
+TEST(MsacPlane, finds_the_ground_among_forty_percent_clutter) {
+  const Scene scene = ground_with_clutter(20000, 0.4);
+  const auto fit = estimate_plane(scene.points);
+  ASSERT_TRUE(fit);
+  EXPECT_LT(angle_deg(fit->plane.normal, scene.truth.normal), 0.02);
+  EXPECT_NEAR(fit->plane.d, scene.truth.d, 0.002);
+  EXPECT_NEAR(fit->plane.normal.norm(), 1, 1e-12);
+  EXPECT_EQ(fit->num_inliers, 12000);
+  EXPECT_NEAR(fit->rmse_m, 0.02, 0.001);
+}
+
+TEST(MsacPlane, noise_free_points_give_the_exact_plane) {
+  std::vector<Eigen::Vector3f> points;
+  for (int i = 0; i < 100; ++i) points.emplace_back(i % 10, i / 10, -2);
+  const auto fit = estimate_plane(points);
+  ASSERT_TRUE(fit);
+  EXPECT_LT((fit->plane.normal - Eigen::Vector3d::UnitZ()).norm(), 1e-9);
+  EXPECT_NEAR(fit->plane.d, 2, 1e-9);
+  EXPECT_EQ(fit->num_inliers, 100);
+}
+
+TEST(MsacPlane, a_wall_is_no_ground_however_many_points_it_has) {
+  Scene scene = ground_with_clutter(1000, 0);
+  for (int i = 0; i < 2500; ++i) {
+    scene.points.emplace_back(10.F, 0.01F * static_cast<float>(i % 100),
+                              0.05F * static_cast<float>(i / 100));
+  }
+  const auto fit = estimate_plane(scene.points);
+  ASSERT_TRUE(fit);
+  EXPECT_LT(angle_deg(fit->plane.normal, scene.truth.normal), 0.3);
+}
+
+TEST(MsacPlane, a_slope_beyond_max_tilt_is_not_found) {
+  const Scene scene = ground_with_clutter(2000, 0, 30);
+  PlaneOptions options;
+  options.inlier_distance_m = 0.05;
+  options.min_inliers = 500;
+  EXPECT_FALSE(estimate_plane(scene.points, options));
+  options.max_tilt_deg = 40;
+  EXPECT_TRUE(estimate_plane(scene.points, options));
+}
+
+TEST(MsacPlane, the_normal_points_to_the_up_axis_given) {
+  const Scene scene = ground_with_clutter(2000, 0.2);
+  PlaneOptions options;
+  options.up = -2 * Eigen::Vector3d::UnitZ();
+  const auto fit = estimate_plane(scene.points, options);
+  ASSERT_TRUE(fit);
+  EXPECT_LT(fit->plane.normal.z(), 0);
+  EXPECT_NEAR(fit->plane.d, -scene.truth.d, 0.01);
+}
+
+TEST(MsacPlane, only_the_points_of_the_subset_count) {
+  Scene scene = ground_with_clutter(1000, 0);
+  const auto num_ground = scene.points.size();
+  for (int i = 0; i < 5000; ++i) {
+    scene.points.emplace_back(static_cast<float>(i % 70), static_cast<float>(i / 70), 3.F);
+  }
+  std::vector<int> ground(num_ground);
+  std::iota(ground.begin(), ground.end(), 0);
+  const auto fit = estimate_plane(scene.points, ground);
+  ASSERT_TRUE(fit);
+  EXPECT_LT(angle_deg(fit->plane.normal, scene.truth.normal), 0.1);
+  EXPECT_EQ(fit->num_inliers, 1000);
+}
+
+TEST(MsacPlane, the_same_seed_gives_the_same_plane) {
+  const Scene scene = ground_with_clutter(20000, 0.4);
+  const auto first = estimate_plane(scene.points);
+  const auto second = estimate_plane(scene.points);
+  ASSERT_TRUE(first && second);
+  EXPECT_EQ(first->plane.normal, second->plane.normal);
+  EXPECT_EQ(first->plane.d, second->plane.d);
+}
+
+TEST(MsacPlane, too_few_points_give_none) {
+  EXPECT_FALSE(estimate_plane({}));
+  EXPECT_FALSE(estimate_plane({{0, 0, 0}, {1, 0, 0}}));
+  EXPECT_FALSE(estimate_plane({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}));
+}
+
+TEST(MsacPlane, wrong_input_is_refused) {
+  const Scene scene = ground_with_clutter(100, 0);
+  PlaneOptions options;
+  options.inlier_distance_m = 0;
+  EXPECT_THROW((void)estimate_plane(scene.points, options), std::invalid_argument);
+  options = {};
+  options.up.setZero();
+  EXPECT_THROW((void)estimate_plane(scene.points, options), std::invalid_argument);
+  EXPECT_THROW((void)estimate_plane(scene.points, std::vector<int>{100}), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace lidar_upsampling

@@ -1,0 +1,16 @@
+#!/usr/bin/env bash
+# The whole test suite on a fresh machine: packages, format, build, unit and end-to-end tests, then the
+# unit tests again under the address and undefined-behaviour sanitizers.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+
+bash share/install-deps.sh --tests
+
+git ls-files '*.h' '*.cpp' | xargs clang-format --dry-run --Werror
+cmake --preset dev
+cmake --build --preset dev
+ctest --preset dev
+
+cmake --preset asan
+cmake --build --preset asan --target unit_tests
+ctest --preset asan
