@@ -129,7 +129,7 @@ class Loader : public SettingVisitor {
 
   void check(const char* key, const std::string& text, double value, Range range) const {
     if (value < range.min || value > range.max)
-      fail(key, text, "it must lie within " + to_text(range.min) + " and " + to_text(range.max));
+      fail(key, text, "it must lie between " + to_text(range.min) + " and " + to_text(range.max));
   }
 
   [[noreturn]] void fail(const char* key, const std::string& value, const std::string& why) const {

@@ -27,7 +27,6 @@ struct ImageResult {
   Camera camera;
   EgoStep ego;  ///< T_lidar_t_lidar_k
   std::vector<ObjectMotion> objects;
-  std::vector<StageTime> timing;
 };
 
 namespace {
@@ -96,13 +95,12 @@ std::optional<VirtualScan> LidarUpsampler::insert_image(const CameraImage& image
       ms_between(group_.front().instant, instant) > config_.timing.group_tolerance_ms)
     waiting = flush();
 
-  std::vector<StageTime> timing;
   CameraView& view = view_of(image.camera);
-  const auto picture = make_picture(image, instant, config_.klt, timing);
+  const auto picture = make_picture(image, instant, config_.klt, timing_);
   if (key_ && is_key_image(instant))
-    start(view, picture, timing);
+    start(view, picture);
   else if (is_due(instant))
-    process(view, *picture, timing);
+    process(view, *picture);
   view.last = picture;
 
   const std::size_t cameras = std::max(expected_cameras_, views_.size());
@@ -121,21 +119,19 @@ std::optional<VirtualScan> LidarUpsampler::flush() {
   motion.stamp = newest.stamp;
   motion.T_lidar_t_lidar_k = newest.ego.T_to_from;
   motion.ego_extrapolated = newest.ego.extrapolated;
-  std::vector<StageTime> timing;
   for (const ImageResult& result : group) {
     motion.cameras.push_back(result.camera);
     for (const ObjectMotion& object : result.objects)
       motion.objects.push_back(brought_to(newest, result, object, key_->scan.stamp));
-    timing.insert(timing.end(), result.timing.begin(), result.timing.end());
   }
   learn(motion.objects, newest.instant);
 
-  Stopwatch watch(timing, "composition");
+  Stopwatch watch(timing_, "composition");
   VirtualScan scan = compose_virtual_scan(
       key_->scan, std::move(motion), config_.virtual_label(key_->scan.label), config_.compose);
   watch.stop();
   scan.T_rest_lidar_t = key_->T_rest_lidar_k * scan.T_lidar_t_lidar_k.inverse();
-  scan.timing = std::move(timing);
+  scan.timing = std::exchange(timing_, {});
   return scan;
 }
 
@@ -161,41 +157,38 @@ bool LidarUpsampler::is_due(Stamp instant) const {
          (next == expected_scans_.begin() || seconds_between(*std::prev(next), instant) >= gap_s);
 }
 
-void LidarUpsampler::start(CameraView& view, const std::shared_ptr<const Picture>& anchor,
-                           std::vector<StageTime>& timing) {
+void LidarUpsampler::start(CameraView& view, const std::shared_ptr<const Picture>& anchor) {
   if (!key_->segments) {
-    const Stopwatch watch(timing, "ground and clusters");
+    const Stopwatch watch(timing_, "ground and clusters");
     key_->segments = segment_scan(key_->scan, config_.segments);
   }
-  const Stopwatch watch(timing, "candidates");
+  const Stopwatch watch(timing_, "candidates");
   const auto step = ego_motion_.step(key_->scan.stamp, anchor->instant);
   start_view(view, anchor, {key_->scan, *key_->segments, key_->T_rest_lidar_k},
              ego_step(anchor->instant).T_to_from, known_motions_, !step, *detector_, config_);
 }
 
-void LidarUpsampler::process(CameraView& view, const Picture& picture,
-                             std::vector<StageTime>& timing) {
+void LidarUpsampler::process(CameraView& view, const Picture& picture) {
   const bool anchor_is_near =
       view.last && std::abs(seconds_between(key_->scan.stamp, view.last->instant)) <=
                        1e-3 * config_.timing.max_anchor_gap_ms;
   if (!view.anchor && !anchor_is_near) return;
-  if (!view.anchor) start(view, view.last, timing);
+  if (!view.anchor) start(view, view.last);
 
   ImageResult result{picture.image.stamp, picture.instant, picture.image.camera,
-                     ego_step(picture.instant), {}, {}};
+                     ego_step(picture.instant), {}};
   {
-    const Stopwatch watch(timing, "point tracking");
+    const Stopwatch watch(timing_, "point tracking");
     follow_view(view, picture, key_->scan, result.ego.T_to_from, config_);
   }
   if (!ego_motion_.step(key_->scan.stamp, picture.instant)) {
-    const Stopwatch watch(timing, "ego-motion");
+    const Stopwatch watch(timing_, "ego-motion");
     result.ego = camera_step(view, picture, result.ego);
   }
   {
-    const Stopwatch watch(timing, "object motion");
+    const Stopwatch watch(timing_, "object motion");
     result.objects = estimate_motions(view, picture, key_->scan, result.ego.T_to_from, config_);
   }
-  result.timing = std::move(timing);
   group_.push_back(std::move(result));
 }
 
@@ -223,6 +216,7 @@ EgoStep LidarUpsampler::camera_step(const CameraView& view, const Picture& pictu
 Pose LidarUpsampler::scan_step(const LidarScan& next) {
   const EgoStep predicted = ego_step(next.stamp);
   if (ego_motion_.step(key_->scan.stamp, next.stamp)) return predicted.T_to_from;
+  const Stopwatch watch(timing_, "scan registration");
   const auto registration = register_scans(key_->scan.points, next.points, predicted.T_to_from,
                                            config_.scan_registration);
   if (!registration) return predicted.T_to_from;

@@ -63,9 +63,8 @@ class LidarUpsampler {
   [[nodiscard]] CameraView& view_of(const Camera& camera);
   [[nodiscard]] bool is_key_image(Stamp instant) const;
   [[nodiscard]] bool is_due(Stamp instant) const;
-  void start(CameraView& view, const std::shared_ptr<const Picture>& anchor,
-             std::vector<StageTime>& timing);
-  void process(CameraView& view, const Picture& picture, std::vector<StageTime>& timing);
+  void start(CameraView& view, const std::shared_ptr<const Picture>& anchor);
+  void process(CameraView& view, const Picture& picture);
   [[nodiscard]] EgoStep ego_step(Stamp instant) const;
   [[nodiscard]] EgoStep camera_step(const CameraView& view, const Picture& picture,
                                     const EgoStep& predicted);
@@ -80,6 +79,7 @@ class LidarUpsampler {
   std::vector<ImageResult> group_;              ///< of the instant under way
   std::map<int, KnownMotion> known_motions_;    ///< by track id
   Twist lidar_rate_ = Twist::Zero();            ///< of the last ego-motion, per second
+  std::vector<StageTime> timing_;               ///< since the last virtual scan
   std::vector<Stamp> expected_scans_;
   std::size_t expected_cameras_ = 0;
   double scan_period_s_ = 0;

@@ -49,7 +49,8 @@ std::optional<std::string> find_file(const fs::path& folder, int number,
   char name[16];
   std::snprintf(name, sizeof name, "%010d", number);
   for (const std::string& extension : extensions) {
-    const fs::path path = folder / (name + extension);
+    fs::path path = folder / name;
+    path += extension;
     if (fs::is_regular_file(path)) return path.string();
   }
   return std::nullopt;

@@ -33,7 +33,7 @@ struct Options {
 
 // Makes the observation of one frame; frames of all sensors are put in the order of their stamps.
 using MakeObservation = std::function<mrpt::obs::CObservation::Ptr(const Frame&)>;
-struct Event {
+struct TimedFrame {
   Frame frame;
   const MakeObservation* make;
 };
@@ -84,8 +84,9 @@ void report_missing(const std::string& folder, const SensorFolder& list) {
             << list.missing.front() << " to " << list.missing.back() << ": skipped\n";
 }
 
-std::vector<Event> events_of(const Options& options, const std::vector<Sensor>& sensors) {
-  std::vector<Event> events;
+std::vector<TimedFrame> frames_in_time_order(const Options& options,
+                                             const std::vector<Sensor>& sensors) {
+  std::vector<TimedFrame> frames;
   for (const Sensor& sensor : sensors) {
     const SensorFolder list = list_frames(options.drive + "/" + sensor.folder, sensor.extensions,
                                           options.first, options.last);
@@ -94,12 +95,13 @@ std::vector<Event> events_of(const Options& options, const std::vector<Sensor>& 
       throw std::runtime_error("no frame of " + options.drive + "/" + sensor.folder +
                                " is there, or none within --first and --last");
     }
-    for (const Frame& frame : list.frames) events.push_back({frame, &sensor.make});
+    for (const Frame& frame : list.frames) frames.push_back({frame, &sensor.make});
     std::cout << sensor.folder << ": " << list.frames.size() << " frames\n";
   }
-  std::stable_sort(events.begin(), events.end(),
-                   [](const Event& a, const Event& b) { return a.frame.stamp < b.frame.stamp; });
-  return events;
+  std::stable_sort(frames.begin(), frames.end(), [](const TimedFrame& a, const TimedFrame& b) {
+    return a.frame.stamp < b.frame.stamp;
+  });
+  return frames;
 }
 
 void convert(const Options& options) {
@@ -112,12 +114,12 @@ void convert(const Options& options) {
   OxtsReader oxts;
   const std::vector<Sensor> sensors = sensors_of(options, calibration, oxts);
   RawlogWriter writer(options.output, options.overwrite);
-  const std::vector<Event> events = events_of(options, sensors);
+  const std::vector<TimedFrame> frames = frames_in_time_order(options, sensors);
   {
     Progress progress("converting");
-    for (const Event& event : events) {
-      writer.write(*(*event.make)(event.frame));
-      progress(static_cast<double>(writer.num_written()) / static_cast<double>(events.size()));
+    for (const TimedFrame& timed : frames) {
+      writer.write(*(*timed.make)(timed.frame));
+      progress(static_cast<double>(writer.num_written()) / static_cast<double>(frames.size()));
     }
   }
   writer.commit();

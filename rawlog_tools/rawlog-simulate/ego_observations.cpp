@@ -66,7 +66,7 @@ mrpt::obs::CObservation::Ptr pose_observation(const World& world, const std::str
                                               Stamp stamp) {
   auto observation = mrpt::obs::CObservationRobotPose::Create();
   observation->pose.mean = to_mrpt(world.T_world_vehicle(time_of(stamp)));
-  observation->pose.cov = mrpt::math::CMatrixDouble66::Identity() * 1e-6;
+  observation->pose.cov.setDiagonal(1e-6);
   observation->sensorLabel = label;
   observation->timestamp = stamp;
   return observation;

@@ -3,22 +3,14 @@
 #include "lidar_upsampling/io/carriers.h"
 
 #include <gtest/gtest.h>
-#include <mrpt/io/lazy_load_path.h>
-#include <mrpt/maps/CPointsMapXYZI.h>
-#include <mrpt/maps/CSimplePointsMap.h>
 #include <mrpt/obs/CObservation3DRangeScan.h>
-#include <mrpt/obs/CObservationOdometry.h>
 #include <mrpt/obs/CObservationPointCloud.h>
 #include <mrpt/obs/CObservationVelodyneScan.h>
 #include <mrpt/version.h>
 
 #include <cmath>
-#include <fstream>
 #include <limits>
 #include <random>
-
-#include "lidar_upsampling/io/rawlog_stream.h"
-#include "test_folder.h"
 
 namespace lidar_upsampling {
 namespace {
@@ -210,125 +202,6 @@ TEST(Carriers, a_scan_that_contradicts_itself_is_refused) {
   scan.points[3].x() = std::numeric_limits<float>::quiet_NaN();
   EXPECT_THROW(static_cast<void>(observation_from_scan(scan, Carrier::automatic)),
                std::invalid_argument);
-}
-
-TEST(Carriers, other_observations_are_no_scans) {
-  mrpt::obs::CObservationOdometry odometry;
-  EXPECT_FALSE(is_lidar_scan(odometry));
-  EXPECT_FALSE(scan_from_observation(odometry));
-}
-
-TEST(Carriers, invalid_points_of_foreign_scans_are_left_out) {
-  CObservation3DRangeScan depth;
-  depth.hasPoints3D = true;
-  depth.resizePoints3DVectors(3);
-  depth.points3D_x = {0.F, 1.F, std::numeric_limits<float>::quiet_NaN()};
-  depth.points3D_y = {0.F, 2.F, 0.F};
-  depth.points3D_z = {0.F, 3.F, 0.F};
-  depth.points3D_idxs_x.assign(3, 0);
-  depth.points3D_idxs_y.assign(3, 0);
-  const LidarScan scan = scan_from_observation(depth).value();
-  ASSERT_EQ(scan.size(), 1U);
-  EXPECT_EQ(scan.points[0], Eigen::Vector3f(1, 2, 3));
-  EXPECT_TRUE(scan.ring.empty());
-}
-
-TEST(Carriers, eight_bit_intensities_of_foreign_point_clouds_are_scaled) {
-  const auto map = mrpt::maps::CPointsMapXYZI::Create();
-  map->resize(2);
-  map->setPointFast(0, 1, 0, 0);
-  map->setPointFast(1, 2, 0, 0);
-  map->setPointIntensity(0, 51.F);
-  map->setPointIntensity(1, 255.F);
-  CObservationPointCloud cloud;
-  cloud.pointcloud = map;
-  const LidarScan scan = scan_from_observation(cloud).value();
-  EXPECT_FLOAT_EQ(scan.intensity.at(0), 0.2F);
-  EXPECT_FLOAT_EQ(scan.intensity.at(1), 1.F);
-}
-
-// A wall 4 m ahead, seen by a depth camera of 8 x 6 pixels.
-CObservation3DRangeScan wall(bool range_is_depth) {
-  CObservation3DRangeScan depth;
-  depth.sensorLabel = "KINECT";
-  depth.cameraParams.ncols = 8;
-  depth.cameraParams.nrows = 6;
-  depth.cameraParams.setIntrinsicParamsFromValues(10, 10, 3.5, 2.5);
-  depth.hasRangeImage = true;
-  depth.range_is_depth = range_is_depth;
-  depth.rangeUnits = 0.001F;
-  depth.rangeImage_setSize(6, 8);
-  for (int row = 0; row < 6; ++row) {
-    for (int column = 0; column < 8; ++column) {
-      const double ray = std::hypot(1., (column - 3.5) / 10, (row - 2.5) / 10);
-      depth.rangeImage(row, column) =
-          static_cast<std::uint16_t>(std::lround(4000 * (range_is_depth ? 1. : ray)));
-    }
-  }
-  depth.rangeImage(2, 5) = 0;  // no return
-  return depth;
-}
-
-TEST(Carriers, a_depth_camera_is_a_lidar_too) {
-  for (const bool range_is_depth : {true, false}) {
-    CObservation3DRangeScan depth = wall(range_is_depth);
-    const LidarScan scan = scan_from_observation(depth).value();
-    ASSERT_EQ(scan.size(), 47U);
-    EXPECT_EQ(scan.num_rings, 6);
-    EXPECT_EQ(scan.num_columns, 8);
-    for (std::size_t i = 0; i < scan.size(); ++i) {
-      const int row = 5 - scan.ring[i];
-      const Eigen::Vector3f expected(4.F, -0.4F * (static_cast<float>(scan.column[i]) - 3.5F),
-                                     -0.4F * (static_cast<float>(row) - 2.5F));
-      EXPECT_LT((scan.points[i] - expected).norm(), 2e-3F);
-    }
-  }
-}
-
-TEST(Carriers, external_points_are_loaded_and_unloaded) {
-  const TestFolder folder;
-  mrpt::io::setLazyLoadPathBase(folder.path().string());
-  const LidarScan scan = full_scan();
-  auto observation = std::dynamic_pointer_cast<CObservation3DRangeScan>(
-      observation_from_scan(scan, Carrier::range_scan_3d));
-  observation->points3D_convertToExternalStorage("points.bin", folder.path().string());
-  const auto read = std::dynamic_pointer_cast<CObservation3DRangeScan>(stored(*observation));
-  ASSERT_TRUE(read->points3D_x.empty());
-  expect_same_points(scan_from_observation(*read).value(), scan);
-  EXPECT_TRUE(read->points3D_x.empty());
-}
-
-TEST(Carriers, external_point_clouds_are_loaded_and_unloaded) {
-  const TestFolder folder;
-  mrpt::io::setLazyLoadPathBase(folder.path().string());
-  const std::vector<float> points = {1, 2, 3, 0.5F, 4, 5, 6, 0.25F};
-  std::ofstream(folder / "points.bin", std::ios::binary)
-      .write(reinterpret_cast<const char*>(points.data()), 32);
-  CObservationPointCloud cloud;
-  cloud.setAsExternalStorage("points.bin",
-                             CObservationPointCloud::ExternalStorageFormat::KittiBinFile);
-  const LidarScan scan = scan_from_observation(cloud).value();
-  ASSERT_EQ(scan.size(), 2U);
-  EXPECT_EQ(scan.points[1], Eigen::Vector3f(4, 5, 6));
-  EXPECT_FLOAT_EQ(scan.intensity[1], 0.25F);
-  EXPECT_FALSE(cloud.pointcloud);
-}
-
-TEST(Carriers, a_missing_external_file_is_named) {
-  const TestFolder folder;
-  mrpt::io::setLazyLoadPathBase(folder.path().string());
-  CObservationPointCloud cloud;
-  cloud.sensorLabel = "LIDAR";
-  cloud.setAsExternalStorage("none.bin",
-                             CObservationPointCloud::ExternalStorageFormat::KittiBinFile);
-  try {
-    static_cast<void>(scan_from_observation(cloud));
-    FAIL();
-  } catch (const std::runtime_error& error) {
-    const std::string text = error.what();
-    EXPECT_NE(text.find("none.bin"), std::string::npos) << text;
-    EXPECT_NE(text.find("LIDAR"), std::string::npos) << text;
-  }
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <Eigen/Cholesky>
 #include <limits>
 
+#include "lidar_upsampling/vision/observation.h"
 #include "lidar_upsampling/vision/pose_increment.h"
 #include "pose_problems.h"
 

@@ -147,7 +147,7 @@ CameraImage image_from_observation(mrpt::obs::CObservationImage& observation) {
 }
 
 mrpt::obs::CObservationImage::Ptr observation_from_image(const CameraImage& image) {
-  const auto observation = mrpt::obs::CObservationImage::Create();
+  auto observation = mrpt::obs::CObservationImage::Create();
   observation->timestamp = image.stamp;
   observation->sensorLabel = image.camera.label;
   observation->cameraParams = to_mrpt(image.camera.model);

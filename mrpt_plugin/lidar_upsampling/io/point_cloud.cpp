@@ -49,7 +49,7 @@ void scale_to_unit(std::vector<float>& intensity) {
 }  // namespace
 
 mrpt::obs::CObservationPointCloud::Ptr make_point_cloud(const LidarScan& scan) {
-  const auto observation = mrpt::obs::CObservationPointCloud::Create();
+  auto observation = mrpt::obs::CObservationPointCloud::Create();
   if (scan.intensity.empty()) {
     const auto map = mrpt::maps::CSimplePointsMap::Create();
     set_points(scan, *map);

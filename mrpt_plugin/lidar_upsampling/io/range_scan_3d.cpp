@@ -175,7 +175,7 @@ void read_range_picture(const CObservation3DRangeScan& observation, LidarScan& s
 }  // namespace
 
 CObservation3DRangeScan::Ptr make_range_scan_3d(const LidarScan& scan) {
-  const auto observation = CObservation3DRangeScan::Create();
+  auto observation = CObservation3DRangeScan::Create();
   observation->hasPoints3D = true;
   observation->resizePoints3DVectors(scan.size());
   double sq_max_range = 0;

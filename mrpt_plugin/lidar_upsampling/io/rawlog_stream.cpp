@@ -32,7 +32,7 @@ void register_stock_classes() {
 }
 
 std::string explain(const std::exception& error) {
-  const std::string text = one_line(error);
+  std::string text = one_line(error);
   const auto from = text.find('\'');
   const auto to = text.find('\'', from + 1);
   if (text.find("not registered") == std::string::npos || to == std::string::npos) return text;

@@ -103,6 +103,7 @@ std::vector<Setting> settings_of(const CConfigFileBase& config, const std::strin
   std::vector<Setting> settings;
   for (const std::string& key : keys) {
     std::string value = config.read_string(section, key, "");
+    value = value.substr(0, value.find(';'));  // MRPT leaves comments in
     value.erase(value.find_last_not_of(" \t\r") + 1);
     settings.push_back({section, key, value});
   }

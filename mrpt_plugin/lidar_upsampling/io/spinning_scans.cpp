@@ -128,7 +128,7 @@ RotatingGeometry geometry_of(const CObservationRotatingScan& observation) {
 }  // namespace
 
 CObservationVelodyneScan::Ptr make_velodyne_scan(const LidarScan& scan) {
-  const auto observation = CObservationVelodyneScan::Create();
+  auto observation = CObservationVelodyneScan::Create();
   auto& cloud = observation->point_cloud;
   observation->minRange = 0;
   observation->originalReceivedTimestamp = scan.stamp;

@@ -25,16 +25,22 @@ double step_from_elevations(const LidarScan& scan) {
     const double elevation = std::atan2(p.z(), p.head<2>().norm()) / kDegree;
     ++hits[std::clamp(static_cast<int>((elevation + 90) / kBin), 0, kBins - 1)];
   }
-  int runs = 0;
+  constexpr int kMinRings = 4;
+  constexpr int kWidestRing = 4;  // bins
+  int rings = 0;
   int first = -1;
   int last = -1;
+  int width = 0;
   for (int bin = 0; bin < kBins; ++bin) {
     if (hits[bin] < kMinHits) continue;
+    const bool is_new = last < 0 || last != bin - 1;
+    width = is_new ? 1 : width + 1;
+    if (width > kWidestRing) return kDefaultVerticalStepDeg;
+    rings += is_new ? 1 : 0;
     if (first < 0) first = bin;
-    if (last != bin - 1) ++runs;
     last = bin;
   }
-  return runs < 4 ? kDefaultVerticalStepDeg : (last - first) * kBin / (runs - 1);
+  return rings < kMinRings ? kDefaultVerticalStepDeg : (last - first) * kBin / (rings - 1);
 }
 
 }  // namespace

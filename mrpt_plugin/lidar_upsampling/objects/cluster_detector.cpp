@@ -28,7 +28,7 @@ bool is_road_user(const ClusterExtent& extent, std::size_t num_points, bool has_
 const char* class_by_size(const ClusterExtent& extent) {
   if (extent.length < 1.1F && within(extent.top, 1.2, 2.1)) return "person";
   if (within(extent.length, 1.3, 5.5) && extent.width < 2.3F && within(extent.top, 1.1, 2.2)) {
-    return extent.width < 0.8F && extent.length < 2.2F ? "object" : "car";
+    return "car";
   }
   if (extent.length > 2 && extent.top > 2.4F) return "truck";
   return "object";

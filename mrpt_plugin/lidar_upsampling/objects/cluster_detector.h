@@ -12,8 +12,8 @@ class ClusterDetector : public Detector {
  public:
   explicit ClusterDetector(const ClusterDetectorOptions& options) : options_(options) {}
 
-  /// `points` of each detection holds its cluster, seen or not; class "car", "truck", "person",
-  /// "bicycle" by size, "object" where that says nothing.
+  /// `points` of each detection holds its cluster, seen or not; class "car", "truck" or
+  /// "person" by size, "object" where that says nothing.
   std::vector<Detection> detect(const DetectorInput& input) override;
 
  private:

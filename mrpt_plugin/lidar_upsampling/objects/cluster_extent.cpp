@@ -10,6 +10,7 @@ namespace lidar_upsampling {
 namespace {
 
 constexpr double kDegree = 3.14159265358979323846 / 180;
+constexpr std::size_t kFootprintPoints = 600;  ///< so many draw it to a few centimetres
 
 }  // namespace
 
@@ -18,15 +19,17 @@ ClusterExtent cluster_extent(const std::vector<Eigen::Vector3f>& points,
   ClusterExtent extent;
   extent.bottom = std::numeric_limits<float>::infinity();
   extent.top = -extent.bottom;
+  const std::size_t stride = 1 + cluster.size() / kFootprintPoints;
   std::vector<cv::Point2f> footprint;
-  footprint.reserve(cluster.size());
-  for (const int index : cluster) {
+  footprint.reserve(cluster.size() / stride + 1);
+  for (std::size_t i = 0; i < cluster.size(); ++i) {
+    const int index = cluster[i];
     const Eigen::Vector3f& point = points[index];
     const float height = heights.empty() ? point.z() : heights[index];
     extent.bottom = std::min(extent.bottom, height);
     extent.top = std::max(extent.top, height);
     extent.centroid += point;
-    footprint.emplace_back(point.x(), point.y());
+    if (i % stride == 0) footprint.emplace_back(point.x(), point.y());
   }
   extent.centroid /= static_cast<float>(cluster.size());
 

@@ -107,16 +107,17 @@ class Splitter {
   }
 
   [[nodiscard]] bool is_too_large(const std::vector<int>& cluster) const {
-    // No turn fits a footprint into the largest one whose upright box is longer than its diagonal.
     Eigen::AlignedBox3f upright;
     for (const int index : cluster) upright.extend(points_[index]);
     const Eigen::Vector3f sides = upright.sizes();
-    if (std::max(sides.x(), sides.y()) > std::hypot(options_.max_length, options_.max_width)) {
-      return true;
-    }
-    if (std::max(sides.x(), sides.y()) <= options_.max_width) return false;
+    const double longest = std::max(sides.x(), sides.y());
+    const double max_length =
+        sides.z() > options_.low_height ? options_.max_length : options_.max_low_length;
+    // The costly footprint is needed only where a turned one could be either.
+    if (longest <= std::min(max_length, options_.max_width)) return false;
+    if (longest > std::hypot(max_length, options_.max_width)) return true;
     const ClusterExtent extent = cluster_extent(points_, {}, cluster);
-    return extent.length > options_.max_length || extent.width > options_.max_width;
+    return extent.length > max_length || extent.width > options_.max_width;
   }
 
   const std::vector<Eigen::Vector3f>& points_;

@@ -11,19 +11,22 @@ namespace lidar_upsampling {
 /// How far apart two points of one object may lie. The gap between rings is bridged by height
 /// alone, so that a coarse LiDAR does not join cars side by side.
 struct ClusterOptions {
-  double min_distance = 0.4;         ///< m, at the sensor...
-  double distance_per_range = 0.01;  ///< ...growing by this with every metre from it
-  double max_distance = 1;           ///< m
-  double beam_gaps = 2.5;            ///< or so many steps of the beams, whatever is more
-  double vertical_step_deg = 0.4;    ///< between rings
-  double horizontal_step_deg = 0.2;  ///< between columns
-  double voxel_size = 0.15;  ///< m, points this close are handled as one; 0: each on its own
+  double min_distance = 0.45;         ///< m, at the sensor...
+  double distance_per_range = 0.015;  ///< ...growing by this with every metre from it
+  double max_distance = 1;            ///< m
+  double beam_gaps = 2.5;             ///< or so many steps of the beams, whatever is more
+  double vertical_step_deg = 0.4;     ///< between rings
+  double horizontal_step_deg = 0.2;   ///< between columns
+  double voxel_size = 0.25;           ///< m, points this close are handled as one
   int min_points = 8;
 
-  double max_length = 13;      ///< m, clusters of a longer footprint...
-  double max_width = 3.2;      ///< m, ...or a wider one are split...
-  double split_shrink = 0.65;  ///< ...by distances so much shorter...
-  int max_splits = 2;          ///< ...up to so many times
+  // What is too large for one object is split by distances `split_shrink` times as long.
+  double max_length = 13;     ///< m, of the footprint
+  double max_width = 3.2;     ///< m
+  double max_low_length = 6;  ///< m, where it is no higher than `low_height`: cars in a queue
+  double low_height = 2.2;    ///< m
+  double split_shrink = 0.6;
+  int max_splits = 1;
 };
 
 /// @brief Euclidean clusters (Rusu 2010): the connected components of points that lie within the

@@ -39,7 +39,7 @@ struct ClusterDetectorOptions {
   double min_length = 0.3, max_length = 13;  ///< m, the longer side of the footprint
   double max_width = 3.2;                    ///< m, the shorter side
   int min_box_size = 8;                      ///< px, either side
-  double min_visible = 0.5;                  ///< share of its points that the camera sees unhidden
+  double min_visible = 0.15;                 ///< share of its points that lie in the picture
 };
 
 /// Any Darknet or ONNX model of the YOLO families (v2-v5, v8, FastestDet) that cv::dnn reads.

@@ -31,17 +31,17 @@ struct MotionQuery {
 };
 
 /// @brief One object's motion from 3D-2D correspondences of its points (paper, section "Estimate
-/// Virtual Camera Pose"): P3P in MLESAC gives T_camera_t_lidar_k, which holds ego- and object motion
-/// (eq. 2); T_mov = T_lidar_k_camera_t(ego) * T_camera_t_lidar_k (eq. 3). Then the parked hypothesis: the
-/// reprojection cost of the ego-motion alone against the free motion's.
+/// Virtual Camera Pose"): P3P in MLESAC gives T_camera_t_lidar_k, which holds ego- and object
+/// motion (eq. 2); T_mov = T_lidar_k_camera_t(ego) * T_camera_t_lidar_k (eq. 3). Then the parked
+/// hypothesis: the reprojection cost of the ego-motion alone against the free motion's.
 /// @param correspondences points in the lidar frame at k, pixels on the image at t.
 /// @return motions, status and evidence; ids, box and points are the caller's to fill.
 [[nodiscard]] ObjectMotion estimate_object_motion(
     const std::vector<Correspondence>& correspondences, const MotionQuery& query,
     const ObjectMotionOptions& options);
 
-/// @brief Completes the motion's derived fields (T_mov, velocity, yaw rate) from `T_lidar_t_lidar_k` and
-/// the ego-motion.
+/// @brief Completes the motion's derived fields (T_mov, velocity, yaw rate) from
+/// `T_lidar_t_lidar_k` and the ego-motion.
 void set_motion(ObjectMotion& motion, const Pose& T_lidar_t_lidar_k, const MotionQuery& query);
 
 }  // namespace lidar_upsampling

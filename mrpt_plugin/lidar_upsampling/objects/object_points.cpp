@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 
 #include "lidar_upsampling/objects/tracks.h"
 
@@ -21,8 +22,39 @@ Box2d grown(const Box2d& box, double margin) {
 struct Candidate {
   std::vector<int> points;
   Box2d box;
-  double depth = 0;  ///< m, mean
+  double depth = 0;        ///< m, mean
+  int scene_cluster = -1;  ///< that holds most of its points
+  int scene_hits = 0;
+  double share = 1;  ///< of what the picture shows of that cluster, how much lies in the box
 };
+
+/// How many points of each cluster of the scene the picture shows.
+std::vector<int> count_visible(const std::vector<ProjectedPoint>& visible,
+                               const SceneSegments& segments) {
+  std::vector<int> count(segments.clusters.size(), 0);
+  for (const ProjectedPoint& point : visible) {
+    const int cluster = segments.cluster_of[point.index];
+    if (cluster >= 0) ++count[cluster];
+  }
+  return count;
+}
+
+bool is_object(const ClusterExtent& extent, const ClusterOptions& options) {
+  return extent.length <= options.max_length && extent.width <= options.max_width;
+}
+
+/// Finds the scene's cluster of a candidate, unless it is a wall, a hedge or the like.
+void find_in_scene(Candidate& candidate, const SceneSegments& segments,
+                   const std::vector<int>& num_visible, const ClusterOptions& options) {
+  std::map<int, int> hits;
+  for (const int index : candidate.points) ++hits[segments.cluster_of[index]];
+  const auto [cluster, most] = *std::max_element(
+      hits.begin(), hits.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
+  if (cluster < 0 || !is_object(segments.extents[cluster], options)) return;
+  candidate.scene_cluster = cluster;
+  candidate.scene_hits = most;
+  candidate.share = static_cast<double>(most) / num_visible[cluster];
+}
 
 /// `seen` is in the order of the scan, as are the points of a cluster.
 Candidate make_candidate(std::vector<int> cluster, const std::vector<ProjectedPoint>& seen) {
@@ -44,7 +76,7 @@ Candidate make_candidate(std::vector<int> cluster, const std::vector<ProjectedPo
 }
 
 /// Each term in [0, 1]. Points are counted as area, or a near scrap of a bush would outweigh a far
-/// car.
+/// car; what goes on outside the box is something nearer that hides a part of the object.
 double rate(const Candidate& candidate, const Box2d& box, double most_area, double nearest) {
   const double area =
       static_cast<double>(candidate.points.size()) * candidate.depth * candidate.depth;
@@ -52,7 +84,7 @@ double rate(const Candidate& candidate, const Box2d& box, double most_area, doub
       std::abs(candidate.box.left + candidate.box.right - box.left - box.right);
   const double centred = 1 - std::min(1., off_centre / box.width());
   return intersection_over_union(candidate.box, box) + 0.5 * std::sqrt(area / most_area) +
-         0.3 * centred + 0.3 * nearest / candidate.depth;
+         candidate.share + 0.3 * centred + 0.3 * nearest / candidate.depth;
 }
 
 std::vector<int> frustum_points(const std::vector<ProjectedPoint>& visible, const Ground& ground,
@@ -67,26 +99,12 @@ std::vector<int> frustum_points(const std::vector<ProjectedPoint>& visible, cons
   return indices;
 }
 
-/// The scene's cluster that holds most of the points, if it is no larger than an object of which
-/// they are the greater part.
-const std::vector<int>* whole_cluster_of(const std::vector<int>& points,
-                                         const SceneSegments& segments,
-                                         const ObjectPointOptions& options) {
-  for (std::size_t i = 0; i < segments.clusters.size(); ++i) {
-    const std::vector<int>& cluster = segments.clusters[i];
-    if (2 * cluster.size() < points.size()) break;  // the largest come first
-    const ClusterExtent& extent = segments.extents[i];
-    if (extent.length > options.max_length || extent.width > options.max_width) continue;
-    if (static_cast<double>(cluster.size()) >
-        options.max_growth * static_cast<double>(points.size())) {
-      continue;
-    }
-    const auto common = std::count_if(points.begin(), points.end(), [&](int index) {
-      return std::binary_search(cluster.begin(), cluster.end(), index);
-    });
-    if (2 * common > static_cast<std::ptrdiff_t>(points.size())) return &cluster;
-  }
-  return nullptr;
+/// The scene's cluster, where it is about what the box shows, whatever lies outside the picture.
+const std::vector<int>* whole_cluster_of(const Candidate& candidate, const SceneSegments& segments,
+                                         double min_share) {
+  const auto needed = min_share * static_cast<double>(candidate.points.size());
+  if (candidate.scene_cluster < 0 || candidate.share < min_share) return nullptr;
+  return candidate.scene_hits < needed ? nullptr : &segments.clusters[candidate.scene_cluster];
 }
 
 }  // namespace
@@ -102,13 +120,15 @@ std::optional<std::vector<int>> select_object_points(const LidarScan& scan,
   ClusterOptions clustering = options.clusters;
   clustering.min_points = options.min_points;
   clustering.vertical_step_deg = segments.vertical_step_deg;
+  const std::vector<int> num_visible = count_visible(visible, segments);
   std::vector<Candidate> candidates;
   double most_area = 0;
   double nearest = std::numeric_limits<double>::infinity();
   for (auto& cluster : euclidean_clusters(scan.points, indices, clustering)) {
     Candidate candidate = make_candidate(std::move(cluster), seen);
     if (intersection_over_union(candidate.box, box) < options.min_overlap) continue;
-    const double size = static_cast<double>(candidate.points.size());
+    find_in_scene(candidate, segments, num_visible, clustering);
+    const auto size = static_cast<double>(candidate.points.size());
     most_area = std::max(most_area, size * candidate.depth * candidate.depth);
     nearest = std::min(nearest, candidate.depth);
     candidates.push_back(std::move(candidate));
@@ -120,7 +140,7 @@ std::optional<std::vector<int>> select_object_points(const LidarScan& scan,
         return rate(a, box, most_area, nearest) < rate(b, box, most_area, nearest);
       });
   if (options.whole_cluster) {
-    if (const auto* whole = whole_cluster_of(best->points, segments, options)) return *whole;
+    if (const auto* whole = whole_cluster_of(*best, segments, options.min_share)) return *whole;
   }
   return best->points;
 }

@@ -13,13 +13,10 @@ namespace lidar_upsampling {
 struct ObjectPointOptions {
   ClusterOptions clusters;  ///< the angle between rings is taken from the segments
   int min_points = 8;
-  double box_margin = 0.05;  ///< of the box's size, by which boxes may be too small
-  double min_overlap = 0.1;  ///< IoU of the box with the cluster's own
-  bool whole_cluster =
-      true;  ///< with the cluster's points outside the box, if it is of an object's size
-  double max_length = 13;   ///< m, of such a cluster
-  double max_width = 3.2;   ///< m
-  double max_growth = 1.6;  ///< times the points found in the box
+  double box_margin = 0.05;   ///< of the box's size, on each side, by which a box may be too small
+  double min_overlap = 0.1;   ///< IoU of the box with the cluster's own
+  bool whole_cluster = true;  ///< the scene's cluster instead, with its points outside the box...
+  double min_share = 0.6;     ///< ...if so much of either is common to both
 };
 
 /// @brief The points of the object in a 2D box (paper, section "Defining Object Points"): ground

@@ -14,28 +14,28 @@ namespace lidar_upsampling {
 
 struct PointTrackOptions {
   int max_points_per_object = 150;
-  int border_px = 8;            ///< nearer to the picture's border no point is taken
+  int border_px = 8;  ///< nearer to the picture's border no point is taken
 };
 
 /// The static scene as an owner of points.
 inline constexpr int kStaticOwner = -1;
 
-/// @brief Points of the key scan put on the anchor image, and where they have gone since. One KLT call
-/// follows those of all objects, so that the pyramids are shared.
+/// @brief Points of the key scan put on the anchor image, and where they have gone since. One KLT
+/// call follows those of all objects, so that the pyramids are shared.
 struct PointTracks {
-  std::vector<int> scan_index;           ///< of each, in the key scan
-  std::vector<Eigen::Vector3d> point;    ///< lidar frame at k
-  std::vector<int> owner;                ///< the object candidate, or kStaticOwner
-  std::vector<cv::Point2f> anchor_px;    ///< where it was put
-  std::vector<cv::Point2f> last_px;      ///< where it was last found
-  std::vector<cv::Point2f> predicted_px; ///< where it was expected then
-  std::vector<std::uint8_t> found;       ///< on the last image
+  std::vector<int> scan_index;            ///< of each, in the key scan
+  std::vector<Eigen::Vector3d> point;     ///< lidar frame at k
+  std::vector<int> owner;                 ///< the object candidate, or kStaticOwner
+  std::vector<cv::Point2f> anchor_px;     ///< where it was put
+  std::vector<cv::Point2f> last_px;       ///< where it was last found
+  std::vector<cv::Point2f> predicted_px;  ///< where it was expected then
+  std::vector<std::uint8_t> found;        ///< on the last image
 
   [[nodiscard]] std::size_t size() const { return point.size(); }
 };
 
-/// @brief Chooses up to `max_count` of the candidates, spread over the picture: the best-textured one
-/// of each cell of a grid over their bounding box.
+/// @brief Chooses up to `max_count` of the candidates, spread over the picture: the best-textured
+/// one of each cell of a grid over their bounding box.
 /// @param texture the smallest eigenvalue of the gradient matrix at each pixel (CV_32F).
 /// @return positions in `candidates`, in order.
 [[nodiscard]] std::vector<int> choose_spread(const std::vector<ProjectedPoint>& candidates,

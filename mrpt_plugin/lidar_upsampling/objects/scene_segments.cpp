@@ -34,6 +34,10 @@ SceneSegments segment_scan(const LidarScan& scan, const SegmentOptions& options)
   if (scan.num_columns > 0) clustering.horizontal_step_deg = 360. / scan.num_columns;
   segments.clusters = euclidean_clusters(
       scan.points, points_above_ground(scan, segments.ground, options), clustering);
+  segments.cluster_of.assign(scan.size(), -1);
+  for (std::size_t i = 0; i < segments.clusters.size(); ++i) {
+    for (const int index : segments.clusters[i]) segments.cluster_of[index] = static_cast<int>(i);
+  }
   segments.extents.resize(segments.clusters.size());
   tbb::parallel_for(std::size_t{0}, segments.clusters.size(), [&](std::size_t i) {
     segments.extents[i] = cluster_extent(scan.points, segments.ground.height, segments.clusters[i]);

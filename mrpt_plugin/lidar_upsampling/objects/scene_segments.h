@@ -22,6 +22,7 @@ struct SegmentOptions {
 struct SceneSegments {
   Ground ground;
   std::vector<std::vector<int>> clusters;  ///< indices into the scan, the largest first
+  std::vector<int> cluster_of;             ///< of each point of the scan, -1 for none
   std::vector<ClusterExtent> extents;      ///< of each cluster
   double vertical_step_deg = 0.4;          ///< between the scan's rings
 };

@@ -6,7 +6,6 @@
 
 #include "lidar_upsampling/vision/distortion.h"
 #include "lidar_upsampling/vision/mlesac_pose.h"
-#include "lidar_upsampling/vision/pose_increment.h"
 #include "lidar_upsampling/vision/projection.h"
 #include "lidar_upsampling/vision/refine_pose.h"
 

@@ -22,8 +22,7 @@ struct AbsolutePoseOptions {
   double outlier_range_px = 40;     ///< side of the square an outlier is equally likely to lie in
   double max_inlier_sigmas = 3.03;  ///< of the reprojection error's length; 99 % of the inliers
   double loss_scale_px = 1.5;       ///< of the Cauchy loss
-  double first_gate_px =
-      6;  ///< refine_absolute_pose() starts with what the initial pose sees this close
+  double first_gate_px = 6;  ///< what a pose to be refined must see this close to count at first
   int min_inliers = 8;
   double min_inlier_ratio = 0.3;
   int max_refine_iterations = 30;
@@ -47,7 +46,8 @@ struct AbsolutePose {
 void check(const AbsolutePoseOptions& options);
 
 /// @brief The pose of a camera from points and their pixels, some of them wrong: P3P within MLESAC
-/// (Torr & Zisserman, CVIU 2000; the paper's eq. 2), then refine_absolute_pose().
+/// (Torr & Zisserman, CVIU 2000; the paper's perspective-n-point step), then
+/// refine_absolute_pose().
 /// @param initial an extra hypothesis, e.g. from the motion before.
 /// @return none without consensus: fewer than `min_inliers` or `min_inlier_ratio` of all agree.
 /// @throw std::invalid_argument options or camera model out of range, a coordinate that is not

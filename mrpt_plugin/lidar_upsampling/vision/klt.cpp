@@ -2,7 +2,11 @@
 // Copyright (c) 2026, the lidar_upsampling authors
 #include "lidar_upsampling/vision/klt.h"
 
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
 #include <cmath>
+#include <opencv2/imgproc.hpp>
 #include <opencv2/video/tracking.hpp>
 #include <stdexcept>
 #include <string>
@@ -28,6 +32,33 @@ Flow track_one_way(const ImagePyramid& from, const ImagePyramid& to,
                            options.pyramid_levels, stop, cv::OPTFLOW_USE_INITIAL_FLOW,
                            options.min_eigenvalue);
   return flow;
+}
+
+bool patch_inside(const cv::Size& size, const cv::Point2f& point, int window_px) {
+  const int pixels = window_px / 2;
+  const auto half = static_cast<float>(pixels);
+  return point.x >= half && point.x <= static_cast<float>(size.width - 1) - half &&
+         point.y >= half && point.y <= static_cast<float>(size.height - 1) - half;
+}
+
+void align_all(const ImagePyramid& from, const ImagePyramid& to,
+               const std::vector<cv::Point2f>& points, const AlignmentOptions& options,
+               KltResult& result) {
+  const PatchAligner aligner(options);
+  constexpr std::size_t kGrainSize = 32;
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, points.size(), kGrainSize),
+                    [&](const tbb::blocked_range<std::size_t>& range) {
+                      for (std::size_t i = range.begin(); i < range.end(); ++i) {
+                        if (result.tracked[i] == 0) continue;
+                        const auto aligned =
+                            aligner.align(from.levels().front(), to.levels().front(), points[i],
+                                          result.points[i]);
+                        result.tracked[i] = aligned ? 1 : 0;
+                        if (!aligned) continue;
+                        result.points[i] = aligned->point;
+                        result.residual[i] = aligned->residual;
+                      }
+                    });
 }
 
 void check_fits(const ImagePyramid& pyramid, const KltOptions& options) {
@@ -58,6 +89,9 @@ void check(const KltOptions& options) {
     complain("max_iterations must be positive", options.max_iterations);
   }
   if (!(options.epsilon_px > 0)) complain("epsilon_px must be positive", options.epsilon_px);
+  if (!(options.smoothing_px >= 0)) {
+    complain("smoothing_px must not be negative", options.smoothing_px);
+  }
   if (!(options.max_forward_backward_px > 0)) {
     complain("max_forward_backward_px must be positive", options.max_forward_backward_px);
   }
@@ -72,7 +106,12 @@ ImagePyramid::ImagePyramid(const cv::Mat& gray, const KltOptions& options)
                                 std::to_string(gray.cols) + " x " + std::to_string(gray.rows) +
                                 " of OpenCV type " + std::to_string(gray.type()));
   }
-  cv::buildOpticalFlowPyramid(gray, levels_, cv::Size(window_px_, window_px_), pyramid_levels_,
+  cv::Mat smooth = gray;
+  if (options.smoothing_px > 0) {
+    smooth = cv::Mat();
+    cv::GaussianBlur(gray, smooth, cv::Size(), options.smoothing_px);
+  }
+  cv::buildOpticalFlowPyramid(smooth, levels_, cv::Size(window_px_, window_px_), pyramid_levels_,
                               true, cv::BORDER_REFLECT_101, cv::BORDER_CONSTANT, false);
 }
 
@@ -99,23 +138,22 @@ KltResult track_points(const ImagePyramid& from, const ImagePyramid& to,
 
   result.tracked.assign(points.size(), 0);
   result.forward_backward_px.assign(points.size(), 0);
-  const auto half = static_cast<float>(options.window_px / 2);
-  const auto patch_inside = [&](const cv::Point2f& p) {
-    return p.x >= half && p.x <= static_cast<float>(from.size().width - 1) - half && p.y >= half &&
-           p.y <= static_cast<float>(from.size().height - 1) - half;
-  };
   for (std::size_t i = 0; i < points.size(); ++i) {
     const cv::Point2f there_and_back = backward.points[i] - points[i];
     const float distance = std::hypot(there_and_back.x, there_and_back.y);
     result.forward_backward_px[i] = distance;
-    const bool good = forward.found[i] != 0 && backward.found[i] != 0 && patch_inside(points[i]) &&
-                      patch_inside(forward.points[i]) &&
-                      distance <= static_cast<float>(options.max_forward_backward_px) &&
-                      forward.residual[i] <= static_cast<float>(options.max_residual);
+    const bool good = forward.found[i] != 0 && backward.found[i] != 0 &&
+                      patch_inside(from.size(), points[i], options.window_px) &&
+                      patch_inside(to.size(), forward.points[i], options.window_px) &&
+                      distance <= static_cast<float>(options.max_forward_backward_px);
     result.tracked[i] = good ? 1 : 0;
   }
   result.points = std::move(forward.points);
   result.residual = std::move(forward.residual);
+  if (options.align) align_all(from, to, points, options.alignment, result);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (result.residual[i] > static_cast<float>(options.max_residual)) result.tracked[i] = 0;
+  }
   return result;
 }
 

@@ -7,17 +7,21 @@
 #include <opencv2/core/types.hpp>
 #include <vector>
 
+#include "lidar_upsampling/vision/patch_alignment.h"
+
 namespace lidar_upsampling {
 
 struct KltOptions {
-  int window_px = 15;      ///< side of the square patch, odd
-  int pyramid_levels = 3;  ///< halvings above the full picture
-  int max_iterations = 30;
-  double epsilon_px = 0.005;             ///< a step this short ends the iteration
+  int window_px = 15;         ///< side of the square patch, odd
+  int pyramid_levels = 3;     ///< halvings above the full picture
+  double smoothing_px = 0.7;  ///< sigma of a blur beforehand: interpolation errs on sharp edges
+  int max_iterations = 15;
+  double epsilon_px = 0.02;              ///< a step this short ends the iteration
   double max_forward_backward_px = 0.5;  ///< distance from the point after tracking there and back
-  double min_eigenvalue =
-      1e-3;  ///< of the patch's gradient matrix, in cv::calcOpticalFlowPyrLK's units
-  double max_residual = 20;  ///< mean absolute difference of the patches, gray levels
+  double min_eigenvalue = 5e-4;  ///< of the gradient matrix, in cv::calcOpticalFlowPyrLK's units
+  double max_residual = 15;      ///< mean absolute difference of the patches, gray levels
+  bool align = true;             ///< PatchAligner has the last word
+  AlignmentOptions alignment;
 };
 
 /// @throw std::invalid_argument

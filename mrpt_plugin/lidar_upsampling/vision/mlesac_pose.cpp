@@ -4,10 +4,8 @@
 
 #include <Eigen/Cholesky>
 
-#include "lidar_upsampling/vision/distortion.h"
 #include "lidar_upsampling/vision/p3p.h"
 #include "lidar_upsampling/vision/pose_increment.h"
-#include "lidar_upsampling/vision/projection.h"
 
 namespace lidar_upsampling {
 namespace {
@@ -17,37 +15,6 @@ constexpr int kEmIterations = 5;
 constexpr int kRefineSteps = 2;
 
 }  // namespace
-
-std::vector<Observation> observe(const std::vector<Correspondence>& correspondences,
-                                 const CameraModel& model) {
-  check(model);
-  const double max_radius = valid_radius(model);
-  const Eigen::Vector2d focal(model.fx, model.fy);
-  std::vector<Observation> observations;
-  observations.reserve(correspondences.size());
-  for (std::size_t i = 0; i < correspondences.size(); ++i) {
-    const auto& [point, pixel] = correspondences[i];
-    if (!point.allFinite() || !pixel.allFinite()) {
-      throw std::invalid_argument("absolute pose: correspondence " + std::to_string(i) +
-                                  " has a coordinate that is not a finite number");
-    }
-    const Eigen::Vector2d distorted =
-        (pixel - Eigen::Vector2d(model.cx, model.cy)).cwiseQuotient(focal);
-    const auto normalised = undistort_normalised(model, distorted, max_radius);
-    if (!normalised) continue;
-    observations.push_back({point, *normalised,
-                            focal.asDiagonal() * distort_with_jacobian(model, *normalised).jacobian,
-                            static_cast<int>(i)});
-  }
-  return observations;
-}
-
-double sq_reprojection_error(const Observation& observation, const Pose& T_camera_source) {
-  const Eigen::Vector3d point = T_camera_source * observation.point_in_source;
-  if (!(point.z() > kNearestDepth)) return std::numeric_limits<double>::infinity();
-  const Eigen::Vector2d difference = point.head<2>() / point.z() - observation.normalised;
-  return (observation.pixel_by_normalised * difference).squaredNorm();
-}
 
 MlesacPose::MlesacPose(const std::vector<Observation>& observations,
                        const AbsolutePoseOptions& options)
@@ -73,19 +40,26 @@ void MlesacPose::generate_models(const std::array<int, sample_size>& sample,
   solve_p3p(bearings, points, models);
 }
 
-ModelScore MlesacPose::score_model(const Pose& T_camera_source) const {
+ModelScore MlesacPose::score_model(const Pose& T_camera_source) {
   Eigen::ArrayXd sq_errors(observations_.size());
   for (std::size_t i = 0; i < observations_.size(); ++i) {
     sq_errors[static_cast<Eigen::Index>(i)] =
         sq_reprojection_error(observations_[i], T_camera_source);
   }
   const double sq_sigma = sigma_px_ * sigma_px_;
-  const Eigen::ArrayXd density = (sq_errors * (-0.5 / sq_sigma)).exp() / (2 * kPi * sq_sigma);
+  const double log_inlier = -std::log(2 * kPi * sq_sigma);
+  const double log_outlier = std::log(outlier_density_);
+  const Eigen::ArrayXd log_density = log_inlier - sq_errors * (0.5 / sq_sigma);
+  // No mixture exceeds the greater of its parts: most hypotheses are out before EM.
+  if (-log_density.max(log_outlier).sum() >= lowest_cost_) return {};
+
+  const Eigen::ArrayXd density = log_density.exp();
   double mixing = 0.5;
   for (int i = 0; i < kEmIterations; ++i) {
     mixing = (mixing * density / (mixing * density + (1 - mixing) * outlier_density_)).mean();
   }
   const double log_likelihood = (mixing * density + (1 - mixing) * outlier_density_).log().sum();
+  lowest_cost_ = std::min(lowest_cost_, -log_likelihood);
   return {-log_likelihood, static_cast<int>((sq_errors < max_sq_error_).count())};
 }
 

@@ -3,35 +3,16 @@
 #pragma once
 
 #include <array>
+#include <limits>
 #include <vector>
 
 #include "lidar_upsampling/robust/ransac.h"
-#include "lidar_upsampling/vision/absolute_pose.h"
+#include "lidar_upsampling/vision/observation.h"
 
 namespace lidar_upsampling {
 
-/// A correspondence freed of its lens: near the normalised coordinates, pixels are their affine
-/// image.
-struct Observation {
-  Eigen::Vector3d point_in_source;
-  Eigen::Vector2d normalised;  ///< (x/z, y/z) of the ray through the pixel
-  Eigen::Matrix2d pixel_by_normalised;
-  int index;  ///< of the correspondence
-};
-
-/// @brief Undistorts once what every hypothesis needs; leaves out pixels the lens model does not
-/// hold for.
-/// @throw std::invalid_argument camera model out of range, a coordinate that is not finite.
-[[nodiscard]] std::vector<Observation> observe(const std::vector<Correspondence>& correspondences,
-                                               const CameraModel& model);
-
-/// @brief Squared pixel distance between observation and projection, exact for small ones; infinity
-/// behind the camera.
-[[nodiscard]] double sq_reprojection_error(const Observation& observation,
-                                           const Pose& T_camera_source);
-
 /// @brief P3P hypotheses scored by the negative log likelihood of a mixture of Gaussian inliers and
-/// uniform outliers, its mixing parameter found by EM (Torr & Zisserman, CVIU 2000, eqs. 17-19).
+/// uniform outliers, its mixing parameter found by EM (Torr & Zisserman, CVIU 2000).
 class MlesacPose {
  public:
   using Model = Pose;
@@ -41,7 +22,9 @@ class MlesacPose {
 
   [[nodiscard]] int num_data() const { return static_cast<int>(observations_.size()); }
   void generate_models(const std::array<int, sample_size>& sample, std::vector<Pose>* models) const;
-  [[nodiscard]] ModelScore score_model(const Pose& T_camera_source) const;
+
+  /// @return infinite cost for what cannot beat the best pose scored before.
+  [[nodiscard]] ModelScore score_model(const Pose& T_camera_source);
 
   /// Two Gauss-Newton steps on the inliers.
   void refine_model(Pose& T_camera_source) const;
@@ -52,6 +35,7 @@ class MlesacPose {
   double sigma_px_;
   double outlier_density_;
   double max_sq_error_;
+  double lowest_cost_ = std::numeric_limits<double>::infinity();
 };
 
 }  // namespace lidar_upsampling

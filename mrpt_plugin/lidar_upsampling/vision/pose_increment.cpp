@@ -40,20 +40,4 @@ Pose incremented(const Vector6d& increment, const Pose& pose) {
   return result;
 }
 
-std::optional<Reprojection> reprojection(const Observation& observation,
-                                         const Pose& T_camera_source) {
-  const Eigen::Vector3d point = T_camera_source * observation.point_in_source;
-  if (!(point.z() > kNearestDepth)) return std::nullopt;
-  const double inverse_z = 1 / point.z();
-  const Eigen::Vector2d normalised = point.head<2>() * inverse_z;
-  Eigen::Matrix<double, 2, 3> by_point;
-  by_point << inverse_z, 0, -normalised.x() * inverse_z, 0, inverse_z, -normalised.y() * inverse_z;
-  by_point = observation.pixel_by_normalised * by_point;
-  Reprojection result;
-  result.residual = observation.pixel_by_normalised * (normalised - observation.normalised);
-  result.jacobian.leftCols<3>() = -by_point * cross_matrix(point);
-  result.jacobian.rightCols<3>() = by_point;
-  return result;
-}
-
 }  // namespace lidar_upsampling

@@ -12,7 +12,6 @@
 namespace lidar_upsampling {
 namespace {
 
-constexpr double kNearestDepth = 1e-3;
 constexpr std::size_t kPointsPerChunk = 8192;
 
 /// `max_radius` is valid_radius() of the model, here because it costs more than a projection.

@@ -9,6 +9,8 @@
 
 namespace lidar_upsampling {
 
+constexpr double kNearestDepth = 1e-3;  ///< metres; what is nearer counts as behind the camera
+
 /// A point of a scan as it appears on a picture.
 struct ProjectedPoint {
   int index;    ///< in the scan

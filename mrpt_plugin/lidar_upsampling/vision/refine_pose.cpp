@@ -130,7 +130,7 @@ std::vector<const Observation*> select(const std::vector<Observation>& observati
   return selected;
 }
 
-/// Covariance of an M-estimator (Huber, Robust Statistics, 7.6): the noise is measured on the
+/// Covariance of an M-estimator (Huber, Robust Statistics, ch. 7): the noise is measured on the
 /// inliers, with sigma_px as its prior; for Cauchy's loss the mean slope of the influence is that
 /// of weight squared.
 Matrix6d covariance(const std::vector<const Observation*>& inliers, const Pose& pose,

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "lidar_upsampling/vision/absolute_pose.h"
-#include "lidar_upsampling/vision/mlesac_pose.h"
+#include "lidar_upsampling/vision/observation.h"
 
 namespace lidar_upsampling {
 

@@ -5,7 +5,7 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
-#include <Eigen/Cholesky>
+#include <Eigen/LU>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -126,7 +126,7 @@ class InverseDepthPlane {
   [[nodiscard]] Eigen::Vector3f solve() const {
     Eigen::Matrix3f damped = normal_;
     damped.diagonal().tail<2>().array() += 1e-3F;
-    return damped.ldlt().solve(right_);
+    return damped.inverse() * right_;
   }
 
  private:

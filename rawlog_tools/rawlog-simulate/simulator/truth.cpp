@@ -37,13 +37,14 @@ double hidden_share(const CameraRenderer& renderer, const cv::Mat& object, const
                     const Pose& T_world_camera, const Eigen::AngleAxisd& cone, int id, int step) {
   const Eigen::Vector3d axis_in_camera = T_world_camera.linear().transpose() * cone.axis();
   const auto candidates = view.candidates({}, id);
+  const double cosine = std::cos(cone.angle());
   int num_alone = 0, num_seen = 0;
   for (int v = step / 2; v < object.rows; v += step) {
     for (int u = step / 2; u < object.cols; u += step) {
       const Eigen::Vector2d ray =
           0.5 * (renderer.corner_ray(u, v) + renderer.corner_ray(u + 1, v + 1));
       const Eigen::Vector3d direction = ray.homogeneous().normalized();
-      if (direction.dot(axis_in_camera) < std::cos(cone.angle())) continue;
+      if (direction.dot(axis_in_camera) < cosine) continue;
       if (!view.cast(T_world_camera.linear() * direction, candidates).any()) continue;
       ++num_alone;
       num_seen += object.at<int>(v, u) == id ? 1 : 0;

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the lidar_upsampling authors
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "lidar_upsampling/ego/trajectory.h"
+#include "lidar_upsampling/types.h"
+
+namespace lidar_upsampling {
+
+/// A box of known motion; its pose is that of its centre.
+struct TrueObject {
+  std::string id, class_name;
+  Eigen::Vector3d size = Eigen::Vector3d::Zero();  ///< m: length, width, height
+  Trajectory T_world_object;
+  std::map<Stamp, bool> moving;
+
+  /// At the nearest stamp known.
+  [[nodiscard]] bool moves_at(Stamp stamp) const;
+};
+
+/// A simulator's exact knowledge.
+struct Truth {
+  Trajectory T_world_vehicle;
+  std::vector<TrueObject> objects;
+};
+
+/// @brief Reads `<stem>_objects.csv` and, beside it, `<stem>_ego.csv`, as rawlog-simulate writes
+/// them.
+/// @throw std::runtime_error naming the file, line and column at fault.
+[[nodiscard]] Truth load_truth(const std::string& objects_csv);
+
+/// Where the truth takes points of the key scan: T_lidar_t_lidar_k of the ego-motion, or of an
+/// object. None where the truth does not reach.
+[[nodiscard]] std::optional<Pose> true_ego_motion(const Truth& truth, const LidarScan& key,
+                                                  Stamp stamp);
+[[nodiscard]] std::optional<Pose> true_object_motion(const Truth& truth, const TrueObject& object,
+                                                     const LidarScan& key, Stamp stamp);
+
+/// T_object_lidar at the key scan.
+[[nodiscard]] std::optional<Pose> box_in_scan(const Truth& truth, const TrueObject& object,
+                                              const LidarScan& key);
+
+}  // namespace lidar_upsampling

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the lidar_upsampling authors
+#include "simulator/scenario.h"
+
+#include <gtest/gtest.h>
+#include <mrpt/config/CConfigFileMemory.h>
+
+#include <stdexcept>
+
+#include "simulator/world.h"
+
+namespace lidar_upsampling::sim {
+namespace {
+
+Scenario parsed(const std::string& ini) {
+  return scenario_from_config(mrpt::config::CConfigFileMemory(ini));
+}
+
+std::string refusal(const std::string& ini) {
+  try {
+    (void)parsed(ini);
+  } catch (const std::invalid_argument& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(Scenario, an_unknown_key_is_refused_by_its_name) {
+  const std::string message = refusal("[lidar]\nrings = 32\ncolums = 900\n");
+  EXPECT_NE(message.find("colums"), std::string::npos);
+  EXPECT_NE(message.find("[lidar]"), std::string::npos);
+  EXPECT_NE(message.find("columns"), std::string::npos);
+  EXPECT_NE(refusal("[camera.LEFT]\nf_x = 700\n").find("[camera.LEFT] f_x"), std::string::npos);
+  EXPECT_NE(refusal("[radar]\nlabel = R\n").find("[radar]"), std::string::npos);
+}
+
+TEST(Scenario, a_value_that_cannot_be_is_refused_with_the_ones_that_can) {
+  EXPECT_NE(refusal("[lidar]\nrate_hz = often\n").find("rate_hz"), std::string::npos);
+  EXPECT_NE(refusal("[lidar]\nnoise_m = -1\n").find("-1"), std::string::npos);
+  EXPECT_NE(refusal("[lidar]\nposition_m = 1 2\n").find("3 numbers"), std::string::npos);
+  EXPECT_NE(refusal("[vehicle.a]\ntype = tank\n").find("pedestrian"), std::string::npos);
+  EXPECT_NE(refusal("[vehicle.a]\nmotion = fly\n").find("fly"), std::string::npos);
+  EXPECT_NE(refusal("[log]\nformat = bag\n").find("sensory_frames"), std::string::npos);
+}
+
+TEST(Scenario, nothing_given_is_a_64_beam_scanner_and_one_camera) {
+  const Scenario scenario = parsed("");
+  EXPECT_EQ(scenario.lidar.elevations.size(), 64U);
+  ASSERT_EQ(scenario.cameras.size(), 1U);
+  EXPECT_EQ(scenario.cameras[0].camera.label, "CAM0");
+  EXPECT_EQ(scenario.cameras[0].camera.model.width, 1242);
+  EXPECT_TRUE(scenario.vehicles.empty());
+}
+
+TEST(Scenario, sections_name_cameras_and_vehicles) {
+  const Scenario scenario = parsed(
+      "[lidar]\nrings = 3\nelevations_deg = 1 -10 -4\n"
+      "[camera.LEFT]\nwidth = 640\nphase_s = 0.01\ngain = 0 1, 2 1.5\n"
+      "[camera.REAR]\norientation_deg = 180 0 0\nlabel = back\n"
+      "[vehicle.bus 5]\ntype = bus\nx_m = 4\nyaw_deg = 90\nspeed_mps = 3\nmotion = brake\n");
+  EXPECT_NEAR(scenario.lidar.elevations[0], -10 * M_PI / 180, 1e-12);
+  ASSERT_EQ(scenario.cameras.size(), 2U);
+  EXPECT_EQ(scenario.cameras[0].camera.label, "LEFT");
+  ASSERT_EQ(scenario.cameras[0].gain.size(), 2U);
+  EXPECT_EQ(scenario.cameras[1].camera.label, "back");
+  const Eigen::Vector3d viewed =
+      scenario.cameras[1].camera.T_vehicle_camera.linear() * Eigen::Vector3d::UnitZ();
+  EXPECT_NEAR(viewed.x(), -1, 1e-12);
+  ASSERT_EQ(scenario.vehicles.size(), 1U);
+  EXPECT_NEAR(scenario.vehicles[0].motion.yaw, M_PI / 2, 1e-12);
+  EXPECT_EQ(scenario.vehicles[0].motion.phases.size(), 1U);
+}
+
+TEST(Scenario, every_third_image_has_the_very_stamp_of_a_scan) {
+  const auto images = stamps_of(30, 0, 10), scans = stamps_of(10, 0, 10);
+  ASSERT_EQ(images.size(), 301U);
+  ASSERT_EQ(scans.size(), 101U);
+  for (std::size_t i = 0; i < scans.size(); ++i) EXPECT_EQ(images[3 * i], scans[i]);
+  EXPECT_EQ((images[1] - images[0]).count(), 333333);
+}
+
+TEST(Scenario, those_that_are_shipped_can_be_read) {
+  for (const char* const name : {"demo.ini", "small.ini"}) {
+    const Scenario scenario = load_scenario(std::string(SCENARIO_FOLDER "/") + name);
+    EXPECT_GE(scenario.vehicles.size(), 3U) << name;
+    EXPECT_GT(build_world(scenario).objects.size(), 50U) << name;
+  }
+  EXPECT_THROW((void)load_scenario("no/such.ini"), std::runtime_error);
+}
+
+}  // namespace
+}  // namespace lidar_upsampling::sim

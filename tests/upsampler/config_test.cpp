@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the lidar_upsampling authors
+#include <gtest/gtest.h>
+#include <mrpt/config/CConfigFileMemory.h>
+
+#include <fstream>
+#include <sstream>
+
+#include "lidar_upsampling/config.h"
+
+namespace lidar_upsampling {
+namespace {
+
+Config loaded(const std::string& ini) {
+  mrpt::config::CConfigFileMemory file;
+  file.setContent(ini);
+  Config config;
+  config.loadFromConfigFile(file, kMainSection);
+  return config;
+}
+
+std::string error_of(const std::string& ini) {
+  try {
+    (void)loaded(ini);
+  } catch (const std::invalid_argument& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+std::string content_of(const std::string& path) {
+  std::ifstream file(path);
+  std::ostringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+TEST(Config, the_default_file_says_what_the_structs_say) {
+  EXPECT_EQ(content_of(PROJECT_FOLDER "/config/default.ini"), default_ini())
+      << "run: rawlog-densify --print-config > config/default.ini";
+}
+
+TEST(Config, loading_the_default_file_changes_nothing) {
+  mrpt::config::CConfigFileMemory before, after;
+  Config().saveToConfigFile(before, kMainSection);
+  loaded(default_ini()).saveToConfigFile(after, kMainSection);
+  std::string text_before, text_after;
+  before.getContent(text_before);
+  after.getContent(text_after);
+  EXPECT_EQ(text_before, text_after);
+}
+
+TEST(Config, the_kitti_file_loads) {
+  EXPECT_DOUBLE_EQ(loaded(content_of(PROJECT_FOLDER "/config/kitti.ini")).timing.camera_time_offset_ms,
+                   10.5);
+}
+
+TEST(Config, values_are_read) {
+  const Config config = loaded(
+      "[lidar_upsampling]\nlidar_label = TOP\ncamera_labels = A, B\nobjects = drop\n"
+      "[klt]\nwindow_px = 21\n[ego_motion]\nsource = gnss\n[object_motion]\nstatic_test = no\n");
+  EXPECT_EQ(config.lidar_label, "TOP");
+  EXPECT_EQ(config.camera_labels, (std::vector<std::string>{"A", "B"}));
+  EXPECT_EQ(config.compose.objects, MovingObjects::drop);
+  EXPECT_EQ(config.klt.window_px, 21);
+  EXPECT_EQ(config.ego_motion.source, EgoSource::gnss);
+  EXPECT_FALSE(config.object_motion.static_test);
+}
+
+TEST(Config, an_unknown_key_is_named_with_those_there_are) {
+  const std::string error = error_of("[klt]\nwindow = 21\n");
+  EXPECT_NE(error.find("[klt] window"), std::string::npos) << error;
+  EXPECT_NE(error.find("window_px"), std::string::npos) << error;
+}
+
+TEST(Config, a_bad_value_is_named_with_what_is_expected) {
+  EXPECT_NE(error_of("[klt]\nwindow_px = big\n").find("[klt] window_px = 'big': a number"), std::string::npos);
+  EXPECT_NE(error_of("[klt]\nwindow_px = 7.5\n").find("a whole number"), std::string::npos);
+  EXPECT_NE(error_of("[klt]\nwindow_px = 999\n").find("between"), std::string::npos);
+  EXPECT_NE(error_of("[lidar_upsampling]\nobjects = hide\n").find("keep, drop"), std::string::npos);
+  EXPECT_NE(error_of("[object_motion]\nstatic_test = maybe\n").find("true or false"), std::string::npos);
+}
+
+TEST(Config, a_misspelt_section_is_named) {
+  mrpt::config::CConfigFileMemory file;
+  file.setContent("[ktl]\nwindow_px = 21\n[camera.CAM0]\nfx_px = 700\n");
+  try {
+    check_sections(file);
+    FAIL() << "no error";
+  } catch (const std::invalid_argument& error) {
+    EXPECT_NE(std::string(error.what()).find("[ktl]"), std::string::npos) << error.what();
+  }
+}
+
+TEST(Config, a_live_sensors_section_may_hold_the_drivers_own_keys) {
+  mrpt::config::CConfigFileMemory file;
+  file.setContent("[upsampled]\ndriver = UpsampledLidarSensor\nprocess_rate = 50\nobjects = drop\n");
+  Config config;
+  config.loadFromConfigFile(file, "upsampled");
+  EXPECT_EQ(config.compose.objects, MovingObjects::drop);
+}
+
+TEST(Config, the_papers_preset_moves_every_object_by_its_own_pose) {
+  EXPECT_FALSE(loaded("[lidar_upsampling]\npreset = paper\n").object_motion.static_test);
+  EXPECT_TRUE(loaded("").object_motion.static_test);
+}
+
+}  // namespace
+}  // namespace lidar_upsampling

@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the lidar_upsampling authors
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include <algorithm>
+
+#include "street_run.h"
+
+namespace lidar_upsampling {
+namespace {
+
+std::vector<const ObjectMotion*> moving_objects(const VirtualScan& scan) {
+  std::vector<const ObjectMotion*> moving;
+  for (const ObjectMotion& object : scan.objects)
+    if (object.status == MotionStatus::moving) moving.push_back(&object);
+  return moving;
+}
+
+void expect_close_to_truth(const StreetRun& street, const std::vector<VirtualScan>& scans,
+                           double standing, double moving) {
+  double worst_standing = 0, sum_moving = 0;
+  for (const VirtualScan& scan : scans) {
+    const PointErrors errors = point_errors(street, scan);
+    worst_standing = std::max(worst_standing, errors.standing);
+    sum_moving += errors.moving;
+  }
+  EXPECT_LT(worst_standing, standing);
+  EXPECT_LT(sum_moving / static_cast<double>(scans.size()), moving);
+}
+
+TEST(LidarUpsampler, a_virtual_scan_comes_at_every_image_between_two_scans) {
+  StreetRun street;
+  LidarUpsampler upsampler{Config()};
+  const auto scans = street.run(upsampler);
+  ASSERT_EQ(scans.size(), 10U);
+  for (const VirtualScan& scan : scans) {
+    const double age = seconds_between(scan.key_stamp, scan.scan.stamp);
+    EXPECT_TRUE(std::abs(age - 1. / 30) < 1e-6 || std::abs(age - 2. / 30) < 1e-6) << age;
+    EXPECT_EQ(scan.scan.label, "LIDAR_VIRTUAL");
+    EXPECT_FALSE(scan.ego_extrapolated);
+  }
+}
+
+TEST(LidarUpsampler, points_are_where_the_true_motion_puts_them) {
+  StreetRun street;
+  LidarUpsampler upsampler{Config()};
+  expect_close_to_truth(street, street.run(upsampler), 0.02, 0.08);
+}
+
+TEST(LidarUpsampler, moving_cars_are_told_from_parked_ones) {
+  StreetRun street;
+  LidarUpsampler upsampler{Config()};
+  const auto scans = street.run(upsampler);
+  const auto moving = moving_objects(scans.back());
+  ASSERT_GE(moving.size(), 2U);
+  std::vector<double> speeds;
+  for (const ObjectMotion* object : moving) speeds.push_back(object->velocity_lidar_k.x());
+  EXPECT_TRUE(std::any_of(speeds.begin(), speeds.end(), [](double v) { return std::abs(v - 11) < 1; }));
+  EXPECT_TRUE(std::any_of(speeds.begin(), speeds.end(), [](double v) { return std::abs(v + 9) < 1.5; }));
+  EXPECT_TRUE(std::any_of(scans.back().objects.begin(), scans.back().objects.end(),
+                          [](const ObjectMotion& object) {
+                            return object.status == MotionStatus::stationary;
+                          }));
+}
+
+TEST(LidarUpsampler, point_fields_stay_with_their_points) {
+  StreetRun street("[scenario]\nduration_s = 0.1\n");
+  LidarUpsampler upsampler{Config()};
+  const auto scans = street.run(upsampler);
+  ASSERT_FALSE(scans.empty());
+  const VirtualScan& scan = scans.front();
+  const LidarScan key = street.scan_at(scan.key_stamp).scan;
+  ASSERT_EQ(scan.scan.ring.size(), scan.scan.size());
+  ASSERT_EQ(scan.scan.intensity.size(), scan.scan.size());
+  for (std::size_t i = 0; i < scan.scan.size(); i += 37) {
+    EXPECT_EQ(scan.scan.ring[i], key.ring[scan.source_index[i]]);
+    EXPECT_EQ(scan.scan.column[i], key.column[scan.source_index[i]]);
+    EXPECT_EQ(scan.scan.intensity[i], key.intensity[scan.source_index[i]]);
+  }
+}
+
+TEST(LidarUpsampler, without_poses_the_camera_gives_the_ego_motion) {
+  StreetRun street;
+  LidarUpsampler upsampler{Config()};
+  const auto scans = street.run(upsampler, false);
+  ASSERT_EQ(scans.size(), 10U);
+  EXPECT_EQ(upsampler.ego_motion().source(), EgoSource::camera);
+  expect_close_to_truth(street, scans, 0.08, 0.15);
+}
+
+TEST(LidarUpsampler, a_camera_with_unrelated_stamps_works_as_well) {
+  StreetRun street("[scenario]\nduration_s = 1\n[camera.CAM0]\nrate_hz = 15\nphase_s = 0.0231\n");
+  LidarUpsampler upsampler{Config()};
+  const auto scans = street.run(upsampler);
+  ASSERT_GE(scans.size(), 9U);
+  expect_close_to_truth(street, scans, 0.02, 0.15);
+}
+
+TEST(LidarUpsampler, lens_distortion_is_taken_into_account) {
+  StreetRun street(
+      "[camera.CAM0]\ndistortion_model = plumb_bob\ndistortion = -0.28 0.09 0.001 -0.0005 -0.01 0 0 0\n");
+  LidarUpsampler upsampler{Config()};
+  expect_close_to_truth(street, street.run(upsampler), 0.02, 0.08);
+}
+
+TEST(LidarUpsampler, two_cameras_make_one_virtual_scan_per_instant) {
+  StreetRun street(
+      "[camera.REAR]\nwidth = 828\nheight = 250\nfx = 480\nrate_hz = 30\norientation_deg = 180 0 0\n"
+      "[vehicle.behind]\nx_m = -16\ny_m = -1.7\nspeed_mps = 12\n");
+  LidarUpsampler upsampler{Config()};
+  upsampler.expect_cameras({"CAM0", "REAR"});
+  const auto scans = street.run(upsampler);
+  ASSERT_EQ(scans.size(), 10U);
+  bool seen_behind = false;
+  for (const ObjectMotion* object : moving_objects(scans.back()))
+    if (object->camera_label == "REAR" && std::abs(object->velocity_lidar_k.x() - 12) < 1.5)
+      seen_behind = true;
+  EXPECT_TRUE(seen_behind);
+}
+
+TEST(LidarUpsampler, moving_objects_can_be_left_out) {
+  StreetRun street;
+  Config config;
+  config.compose.objects = MovingObjects::drop;
+  LidarUpsampler upsampler{config};
+  const auto scans = street.run(upsampler);
+  const VirtualScan& scan = scans.back();
+  ASSERT_FALSE(moving_objects(scan).empty());
+  EXPECT_LT(scan.scan.size(), street.scan_at(scan.key_stamp).scan.size());
+  for (const ObjectMotion* object : moving_objects(scan))
+    EXPECT_EQ(std::count(scan.track_id.begin(), scan.track_id.end(), object->track_id), 0);
+}
+
+TEST(LidarUpsampler, points_that_no_camera_sees_can_be_left_out) {
+  StreetRun street("[scenario]\nduration_s = 0.1\n");
+  Config config;
+  config.compose.outside_view = OutsideView::drop;
+  LidarUpsampler upsampler{config};
+  const auto scans = street.run(upsampler);
+  ASSERT_FALSE(scans.empty());
+  for (const Eigen::Vector3f& point : scans.front().scan.points) ASSERT_GT(point.x(), 0);
+}
+
+TEST(LidarUpsampler, the_result_is_the_same_for_any_number_of_threads) {
+  const auto run = [](std::size_t threads) {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    StreetRun street("[scenario]\nduration_s = 0.2\n");
+    LidarUpsampler upsampler{Config()};
+    return street.run(upsampler);
+  };
+  const auto one = run(1), many = run(4);
+  ASSERT_EQ(one.size(), many.size());
+  for (std::size_t i = 0; i < one.size(); ++i)
+    EXPECT_TRUE(one[i].scan.points == many[i].scan.points) << "virtual scan " << i;
+}
+
+TEST(LidarUpsampler, scans_and_images_out_of_order_do_no_harm) {
+  StreetRun street("[scenario]\nduration_s = 0.2\n");
+  LidarUpsampler upsampler{Config()};
+  const auto first = street.scan_at(sim::stamp_of(1, 10, 0)).scan;
+  EXPECT_FALSE(upsampler.insert_scan(first));
+  EXPECT_FALSE(upsampler.insert_scan(street.scan_at(sim::stamp_of(0, 10, 0)).scan));
+  const sim::CameraRenderer renderer(street.scenario.cameras.front());
+  EXPECT_FALSE(upsampler.insert_image(renderer.render(street.world, sim::stamp_of(0, 30, 0), 7).image));
+}
+
+}  // namespace
+}  // namespace lidar_upsampling
