@@ -41,7 +41,10 @@ struct Neighbours {
 class Densification {
  public:
   Densification(const DensifyJob& job, const LogIndex& index, DensifyReport& report)
-      : job_(job), report_(report), upsampler_(job.config), carrier_(carrier_from_string(job.config.carrier)) {
+      : job_(job),
+        report_(report),
+        upsampler_(job.config),
+        carrier_(carrier_from_string(job.config.carrier)) {
     const StreamSelection streams = select_streams(index, job.config, labels_of_overrides(job.rig));
     lidar_label_ = streams.lidar->label;
     std::vector<std::string> labels;
@@ -131,7 +134,8 @@ class Densification {
   std::optional<Pictures> pictures_;
 };
 
-// Virtual scans go inside the frame that holds their image: MRPT's apps drop bare observations there.
+// Virtual scans go inside the frame that holds their image: MRPT's apps drop bare observations
+// there.
 RawlogEntry densified_frame(const RawlogEntry& frame, Densification& run) {
   std::vector<RawlogEntry> observations;
   bool changed = false;
@@ -202,7 +206,9 @@ DensifyReport densify(const DensifyJob& job, const std::function<void(double)>& 
   if (const auto observation = run.flush()) writer.write(*observation);
   writer.commit();
   if (!share_external_storage(job.input, job.output))
-    report.warn("the output's folder of external images is taken by something else: its images will not be found");
+    report.warn(
+        "the output's folder of external images is taken by something else: its images will not be "
+        "found");
   return report;
 }
 

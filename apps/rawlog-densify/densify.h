@@ -22,8 +22,8 @@ struct DensifyJob {
   RigOverrides rig;
 };
 
-/// @brief The main job: a log in, the same log with a virtual scan after every image between two scans
-/// out. Observations go through byte for byte.
+/// @brief The main job: a log in, the same log with a virtual scan after every image between two
+/// scans out. Observations go through byte for byte.
 /// @param progress gets the share done, 0 to 1.
 /// @throw std::runtime_error with one line that says what, where and what to do.
 [[nodiscard]] DensifyReport densify(const DensifyJob& job,

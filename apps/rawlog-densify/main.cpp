@@ -22,7 +22,8 @@ using namespace lidar_upsampling;  // NOLINT(google-build-using-namespace)
 void set_key(mrpt::config::CConfigFileMemory& config, const std::string& assignment) {
   const auto equals = assignment.find('=');
   if (equals == std::string::npos || equals == 0)
-    throw std::runtime_error("--set " + assignment + ": expected name=value, or section.name=value");
+    throw std::runtime_error("--set " + assignment +
+                             ": expected name=value, or section.name=value");
   const std::string name = assignment.substr(0, equals);
   const auto dot = name.rfind('.');
   const std::string section = dot == std::string::npos ? kMainSection : name.substr(0, dot);
@@ -62,9 +63,10 @@ void write_report(const DensifyReport& report, const std::string& path) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("Raises a LiDAR's frame rate to the camera's: adds a virtual 3D scan to a log at every image "
-               "that falls between two real scans",
-               "rawlog-densify");
+  CLI::App app(
+      "Raises a LiDAR's frame rate to the camera's: adds a virtual 3D scan to a log at every image "
+      "that falls between two real scans",
+      "rawlog-densify");
   DensifyJob job;
   std::string config, detections, report_path;
   std::vector<std::string> sets;
@@ -72,7 +74,8 @@ int main(int argc, char** argv) {
   app.add_option("--input", job.input, "the log to densify (.rawlog, plain or gzip)");
   app.add_option("--output", job.output, "the densified log");
   app.add_option("--config", config, "settings (INI); without it, the defaults");
-  app.add_option("--set", sets, "one setting: name=value of [lidar_upsampling], or section.name=value")
+  app.add_option("--set", sets,
+                 "one setting: name=value of [lidar_upsampling], or section.name=value")
       ->expected(1)
       ->take_all();
   app.add_option("--detections", detections,

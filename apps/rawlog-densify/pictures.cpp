@@ -83,7 +83,7 @@ cv::Mat on_image(const VirtualScan& scan, const CameraImage& image) {
              color_of_depth(palette, points[i].depth));
 
   for (const ObjectMotion& object : scan.objects) {
-    if (object.status != MotionStatus::moving || object.camera_label != image.camera.label) continue;
+    if (!moves(object) || object.camera_label != image.camera.label) continue;
     const cv::Scalar color = color_of_track(object.track_id);
     cv::rectangle(picture, cv::Point2d(object.box.left, object.box.top),
                   cv::Point2d(object.box.right, object.box.bottom), color, 2, cv::LINE_AA);
@@ -121,7 +121,8 @@ void draw_grid(Map& map) {
   }
   const std::vector<cv::Point> vehicle{Map::at({2.2, 0, 0}), Map::at({-1.5, 1, 0}),
                                        Map::at({-0.8, 0, 0}), Map::at({-1.5, -1, 0})};
-  cv::fillPoly(map.picture, std::vector<std::vector<cv::Point>>{vehicle}, {240, 240, 240}, cv::LINE_AA);
+  cv::fillPoly(map.picture, std::vector<std::vector<cv::Point>>{vehicle}, {240, 240, 240},
+               cv::LINE_AA);
 }
 
 void draw_legend(Map& map, const VirtualScan& scan) {
@@ -160,7 +161,7 @@ void Pictures::virtual_scan(const VirtualScan& scan) {
 
 void Pictures::remember_trails(const VirtualScan& scan) {
   for (const ObjectMotion& object : scan.objects) {
-    if (object.status != MotionStatus::moving) continue;
+    if (!moves(object)) continue;
     trails_[object.track_id].push_back(
         {scan.scan.stamp,
          scan.T_rest_lidar_t * (object.T_lidar_t_lidar_k * object.centroid_lidar_k)});
@@ -174,15 +175,14 @@ cv::Mat Pictures::from_above(const VirtualScan& scan) const {
   for (const auto& point : real_.points)
     if (point.z() < kHighest_m) map.dot(point.cast<double>(), 0.6, {92, 84, 80});
   std::map<int, bool> moving;
-  for (const ObjectMotion& object : scan.objects)
-    moving[object.track_id] = object.status == MotionStatus::moving;
+  for (const ObjectMotion& object : scan.objects) moving[object.track_id] = moves(object);
   for (std::size_t i = 0; i < scan.scan.size(); ++i) {
     const auto& point = scan.scan.points[i];
     if (point.z() >= kHighest_m) continue;
     const auto object = moving.find(scan.track_id[i]);
-    const bool moves = object != moving.end() && object->second;
-    map.dot(point.cast<double>(), moves ? 1.6 : 0.6,
-            moves ? color_of_track(scan.track_id[i]) : cv::Scalar(190, 160, 120));
+    const bool is_moving = object != moving.end() && object->second;
+    map.dot(point.cast<double>(), is_moving ? 1.6 : 0.6,
+            is_moving ? color_of_track(scan.track_id[i]) : cv::Scalar(190, 160, 120));
   }
 
   const Pose T_lidar_t_rest = scan.T_rest_lidar_t.inverse();
@@ -192,7 +192,7 @@ cv::Mat Pictures::from_above(const VirtualScan& scan) const {
                Map::at(T_lidar_t_rest * trail[i].position_at_rest), color_of_track(track), 2,
                cv::LINE_AA);
   for (const ObjectMotion& object : scan.objects) {
-    if (object.status != MotionStatus::moving) continue;
+    if (!moves(object)) continue;
     const Eigen::Vector3d center = object.T_lidar_t_lidar_k * object.centroid_lidar_k;
     const Eigen::Vector3d tip =
         center + scan.T_lidar_t_lidar_k.linear() * object.velocity_lidar_k * 0.5;

@@ -10,8 +10,8 @@
 
 namespace lidar_upsampling {
 
-/// @brief Pictures of virtual scans: on the camera image, coloured by depth, and from above beside the last
-/// real scan, with the trails of moving objects.
+/// @brief Pictures of virtual scans: on the camera image, coloured by depth, and from above beside
+/// the last real scan, with the trails of moving objects.
 class Pictures {
  public:
   /// @throw std::runtime_error the folder cannot be made.

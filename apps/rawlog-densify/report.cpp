@@ -13,8 +13,10 @@ namespace {
 
 double quantile(std::vector<double> values, double share) {
   if (values.empty()) return 0;
-  const auto position = static_cast<std::size_t>(share * static_cast<double>(values.size() - 1) + 0.5);
-  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(position), values.end());
+  const auto position =
+      static_cast<std::size_t>(share * static_cast<double>(values.size() - 1) + 0.5);
+  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(position),
+                   values.end());
   return values[position];
 }
 
@@ -32,6 +34,7 @@ nlohmann::json row_json(const DensifyReport::Row& row) {
           {"tracked", object.num_tracked},
           {"inliers", object.num_inliers},
           {"rmse_px", object.rmse_px},
+          {"position_sigma_m", object.position_sigma_m},
           {"position_m", vector_json(object.T_lidar_t_lidar_k * object.centroid_lidar_k)},
           {"velocity_m_s", vector_json(object.velocity_lidar_k)},
           {"yaw_rate_rad_s", object.yaw_rate},
@@ -55,7 +58,7 @@ void DensifyReport::add(const VirtualScan& scan, bool keep_rows) {
   for (const ObjectMotion& object : scan.objects) {
     ++object_status[to_string(object.status)];
     tracks.insert(object.track_id);
-    if (object.status == MotionStatus::moving) moving_tracks.insert(object.track_id);
+    if (moves(object)) moving_tracks.insert(object.track_id);
     if (!keep_rows) continue;
     rows.push_back({scan.scan.stamp, object.points.size(), object});
     rows.back().object.points = {};
@@ -108,8 +111,8 @@ std::string summary(const DensifyReport& report) {
        << "objects tracked   " << report.tracks.size() << ", of them moving "
        << report.moving_tracks.size() << '\n';
   for (const auto& [status, count] : report.object_status)
-    text << "  " << status << std::string(16 - std::min<std::size_t>(15, status.size()), ' ') << count
-         << '\n';
+    text << "  " << status << std::string(16 - std::min<std::size_t>(15, status.size()), ' ')
+         << count << '\n';
   if (report.num_extrapolated > 0)
     text << "ego-motion was extrapolated for " << report.num_extrapolated << " virtual scans\n";
   if (!report.stage_order.empty()) text << "stage                   runs  median ms  p95 ms\n";

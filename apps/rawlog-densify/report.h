@@ -2,8 +2,8 @@
 // Copyright (c) 2026, the lidar_upsampling authors
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
 #include <map>
+#include <nlohmann/json_fwd.hpp>
 #include <set>
 #include <string>
 #include <vector>
@@ -16,16 +16,16 @@ namespace lidar_upsampling {
 struct DensifyReport {
   std::string input, output;
   std::string ego_source, detector, carrier;
-  std::size_t num_objects_in = 0;       ///< entries of the input log
-  std::size_t num_scans = 0;            ///< real scans of the chosen LiDAR
-  std::size_t num_images = 0;           ///< images of the chosen cameras
+  std::size_t num_objects_in = 0;  ///< entries of the input log
+  std::size_t num_scans = 0;       ///< real scans of the chosen LiDAR
+  std::size_t num_images = 0;      ///< images of the chosen cameras
   std::size_t num_virtual_scans = 0;
-  std::size_t num_extrapolated = 0;     ///< of them, with the ego-motion extrapolated
-  std::map<std::string, std::size_t> warnings;                 ///< text, how often
-  std::map<std::string, std::vector<double>> stage_ms;         ///< stage, one time per run of it
-  std::vector<std::string> stage_order;                        ///< as first met
-  std::map<std::string, std::size_t> object_status;            ///< status, objects times images
-  std::set<int> tracks, moving_tracks;                         ///< ids met
+  std::size_t num_extrapolated = 0;             ///< of them, with the ego-motion extrapolated
+  std::map<std::string, std::size_t> warnings;  ///< text, how often
+  std::map<std::string, std::vector<double>> stage_ms;  ///< stage, one time per run of it
+  std::vector<std::string> stage_order;                 ///< as first met
+  std::map<std::string, std::size_t> object_status;     ///< status, objects times images
+  std::set<int> tracks, moving_tracks;                  ///< ids met
   struct Row {
     Stamp stamp;
     std::size_t num_points;
@@ -37,7 +37,8 @@ struct DensifyReport {
   void warn(const std::string& text);
 };
 
-/// @brief Everything, for programs: counts, median and p95 of each stage, a row per object and image.
+/// @brief Everything, for programs: counts, median and p95 of each stage, a row per object and
+/// image.
 [[nodiscard]] nlohmann::json to_json(const DensifyReport& report);
 
 /// @brief A screenful for people.

@@ -28,26 +28,30 @@ const StreamInfo* select_lidar(const LogIndex& index, const Config& config,
   }
   const auto lidars = index.of_kind(StreamKind::lidar);
   if (lidars.empty())
-    throw std::runtime_error(index.path + ": there are no 3D scans; the log holds " + labels_of(index));
+    throw std::runtime_error(index.path + ": there are no 3D scans; the log holds " +
+                             labels_of(index));
   if (lidars.size() > 1)
-    throw std::runtime_error(index.path + ": several streams of 3D scans (" + lidars[0]->label + ", " +
-                             lidars[1]->label + (lidars.size() > 2 ? ", ..." : "") +
-                             "): name one with --set lidar_label=" + lidars[0]->label +
-                             (lidars[1]->label == lidars[0]->label + virtual_suffix
-                                  ? ", or remove the virtual scans of an earlier run with rawlog-edit"
-                                  : ""));
+    throw std::runtime_error(
+        index.path + ": several streams of 3D scans (" + lidars[0]->label + ", " +
+        lidars[1]->label + (lidars.size() > 2 ? ", ..." : "") +
+        "): name one with --set lidar_label=" + lidars[0]->label +
+        (lidars[1]->label == lidars[0]->label + virtual_suffix
+             ? ", or remove the virtual scans of an earlier run with rawlog-edit"
+             : ""));
   return lidars.front();
 }
 
-std::vector<const StreamInfo*> select_cameras(const LogIndex& index, const Config& config,
-                                              const std::vector<std::string>& calibrated_elsewhere) {
+std::vector<const StreamInfo*> select_cameras(
+    const LogIndex& index, const Config& config,
+    const std::vector<std::string>& calibrated_elsewhere) {
   for (const std::string& label : config.camera_labels)
     if (index.find(label, StreamKind::camera) == nullptr)
       throw std::runtime_error(index.path + ": no images are labelled '" + label +
                                "' (setting camera_labels); the log holds " + labels_of(index));
   const auto all = index.of_kind(StreamKind::camera);
   if (all.empty())
-    throw std::runtime_error(index.path + ": there are no images; the log holds " + labels_of(index));
+    throw std::runtime_error(index.path + ": there are no images; the log holds " +
+                             labels_of(index));
   std::vector<const StreamInfo*> cameras;
   for (const StreamInfo* stream : all) {
     const bool usable = stream->calibrated() || named(calibrated_elsewhere, stream->label);
@@ -56,10 +60,11 @@ std::vector<const StreamInfo*> select_cameras(const LogIndex& index, const Confi
     if (!usable && named(config.camera_labels, stream->label)) cameras.clear();
   }
   if (cameras.empty())
-    throw std::runtime_error(
-        index.path + ": the images of '" + all.front()->label +
-        "' have no calibration; give it in a section [camera." + all.front()->label +
-        "] with fx_px, fy_px, cx_px, cy_px and pose, or put it into the log with rawlog-edit --camera-params");
+    throw std::runtime_error(index.path + ": the images of '" + all.front()->label +
+                             "' have no calibration; give it in a section [camera." +
+                             all.front()->label +
+                             "] with fx_px, fy_px, cx_px, cy_px and pose, or put it into the log "
+                             "with rawlog-edit --camera-params");
   return cameras;
 }
 
@@ -70,8 +75,9 @@ void check_clocks(const LogIndex& index, const StreamInfo& lidar, const StreamIn
   const double period_s = std::max(1., lidar.median_period_s);
   if (seconds_between(lidar.stamps.back(), camera.stamps.front()) > period_s ||
       seconds_between(camera.stamps.back(), lidar.stamps.front()) > 0)
-    throw std::runtime_error(index.path + ": the clocks do not overlap: " + span_of(lidar) + ", but " +
-                             span_of(camera) + "; set the clocks right with rawlog-edit --remap-timestamps");
+    throw std::runtime_error(index.path + ": the clocks do not overlap: " + span_of(lidar) +
+                             ", but " + span_of(camera) +
+                             "; set the clocks right with rawlog-edit --remap-timestamps");
 }
 
 }  // namespace

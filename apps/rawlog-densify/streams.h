@@ -18,8 +18,8 @@ struct StreamSelection {
 
 /// @brief The LiDAR and the cameras that the settings name, or the ones there are.
 /// @param calibrated_elsewhere labels of cameras whose calibration comes from the settings.
-/// @throw std::runtime_error no such label (with those there are), several LiDARs to choose from, no
-/// images, images without calibration, clocks that do not overlap.
+/// @throw std::runtime_error no such label (with those there are), several LiDARs to choose from,
+/// no images, images without calibration, clocks that do not overlap.
 [[nodiscard]] StreamSelection select_streams(const LogIndex& index, const Config& config,
                                              const std::vector<std::string>& calibrated_elsewhere);
 

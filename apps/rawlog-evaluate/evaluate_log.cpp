@@ -3,8 +3,8 @@
 #include <stdexcept>
 
 #include "evaluation.h"
-#include "lidar_upsampling/ego/se3.h"
 #include "lidar_upsampling/io/log_index.h"
+#include "lidar_upsampling/se3.h"
 #include "scan_feed.h"
 
 namespace lidar_upsampling {
@@ -22,7 +22,7 @@ bool is_virtual(const std::string& label) {
 std::string find_label(const LogIndex& input, const std::string& wanted) {
   for (const StreamInfo* stream : input.of_kind(StreamKind::lidar)) {
     if (!is_virtual(stream->label)) continue;
-    const std::string real = stream->label.substr(0, stream->label.size() - kEnding.size());
+    std::string real = stream->label.substr(0, stream->label.size() - kEnding.size());
     if (wanted.empty() || wanted == real) return real;
   }
   throw std::runtime_error(input.path + ": holds no virtual scans (label " +

@@ -5,9 +5,9 @@
 #include <numeric>
 
 #include "evaluation.h"
-#include "lidar_upsampling/ego/scan_registration.h"
 #include "lidar_upsampling/metrics/scan_motion.h"
 #include "lidar_upsampling/objects/ground.h"
+#include "lidar_upsampling/registration/scan_registration.h"
 
 namespace lidar_upsampling {
 

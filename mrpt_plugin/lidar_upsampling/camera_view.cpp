@@ -26,13 +26,41 @@ Eigen::Vector3d centroid_of(const LidarScan& scan, const std::vector<int>& point
 }
 
 // The object's motion per second about its own centroid, in the lidar frame at k.
-Twist rate_of(const KnownMotion& known, const Pose& T_rest_lidar_k,
+Twist rate_of(const KnownMotion& known, const Eigen::Matrix3d& R_k_rest,
               const Eigen::Vector3d& centroid) {
-  const Eigen::Matrix3d R_k_rest = T_rest_lidar_k.linear().transpose();
   const Eigen::Vector3d omega(0, 0, known.yaw_rate);
   Twist rate;
   rate << omega, R_k_rest * known.velocity_at_rest - omega.cross(centroid);
   return rate;
+}
+
+std::vector<Eigen::Vector3f> points_at(const LidarScan& scan, const std::vector<int>& indices) {
+  std::vector<Eigen::Vector3f> points;
+  points.reserve(indices.size());
+  for (const int i : indices) points.push_back(scan.points[i]);
+  return points;
+}
+
+// The motion since the scan before, by registration; the images' answer is where it starts.
+void measure_motions(std::vector<Candidate>& candidates, const PastObjects& past,
+                     const KeyScanView& key) {
+  const double dt = seconds_between(past.stamp, key.scan.stamp);
+  const Pose T_k_before = key.T_rest_lidar_k.inverse() * past.T_rest_lidar;
+  tbb::parallel_for(std::size_t{0}, candidates.size(), [&](std::size_t i) {
+    Candidate& candidate = candidates[i];
+    const auto before = past.points.find(candidate.track_id);
+    if (before == past.points.end()) return;
+    ObjectScans scans{before->second, points_at(key.scan, candidate.points), T_k_before,
+                      Pose::Identity(), dt};
+    if (candidate.known) {
+      const Eigen::Vector3d centroid = T_k_before.inverse() * candidate.centroid;
+      scans.T_mov_guess = exp_se3(
+          Twist(dt * rate_of(*candidate.known, past.T_rest_lidar.linear().transpose(), centroid)));
+    }
+    if (const auto measured =
+            measure_between_scans(scans, key.scan.stamp, key.T_rest_lidar_k.linear()))
+      candidate.known = measured;
+  });
 }
 
 // Candidates with their points in the scan, their identities and the motion to expect of them.
@@ -60,12 +88,21 @@ std::vector<Candidate> find_candidates(CameraView& view, const Picture& anchor,
   const std::vector<int> ids = view.tracker.update(anchor.instant, detections, centroids);
   std::vector<Candidate> candidates(detections.size());
   for (std::size_t i = 0; i < candidates.size(); ++i) {
-    candidates[i] = {detections[i], ids[i], std::move(points[i]), Twist::Zero()};
+    Candidate& candidate = candidates[i];
+    candidate.detection = std::move(detections[i]);
+    candidate.track_id = ids[i];
+    candidate.points = std::move(points[i]);
+    candidate.centroid = centroid_of(key.scan, candidate.points);
     if (const auto motion = known.find(ids[i]); motion != known.end())
-      candidates[i].rate = rate_of(motion->second, key.T_rest_lidar_k,
-                                   centroid_of(key.scan, candidates[i].points));
+      candidate.known = motion->second;
   }
   return candidates;
+}
+
+void remember(PastObjects& past, const KeyScanView& key, const std::vector<Candidate>& candidates) {
+  past = {key.scan.stamp, key.T_rest_lidar_k, {}};
+  for (const Candidate& candidate : candidates)
+    past.points[candidate.track_id] = points_at(key.scan, candidate.points);
 }
 
 // Half the distance to the next ring and azimuth step on the picture, with some room.
@@ -129,8 +166,8 @@ std::vector<ProjectedPoint> followable_points(const AnchoredScan& anchored,
 }
 
 // Where a moving object's points were at the anchor's instant, which is not the scan's.
-void reproject(std::vector<ProjectedPoint>& points, const LidarScan& scan, const CameraModel& camera,
-               const Pose& T_camera_a_lidar_k) {
+void reproject(std::vector<ProjectedPoint>& points, const LidarScan& scan,
+               const CameraModel& camera, const Pose& T_camera_a_lidar_k) {
   std::vector<ProjectedPoint> moved;
   for (ProjectedPoint point : points) {
     const Eigen::Vector3d p = T_camera_a_lidar_k * scan.points[point.index].cast<double>();
@@ -146,7 +183,8 @@ void reproject(std::vector<ProjectedPoint>& points, const LidarScan& scan, const
 void add_static_points(PointTracks& tracks, const AnchoredScan& anchored,
                        const std::vector<Candidate>& candidates, const LidarScan& scan,
                        const cv::Mat& texture, const StaticPointOptions& options) {
-  std::vector<std::uint8_t> unreliable(anchored.points.size()), candidate(anchored.points.size(), 0);
+  std::vector<std::uint8_t> unreliable(anchored.points.size()),
+      candidate(anchored.points.size(), 0);
   for (std::size_t i = 0; i < unreliable.size(); ++i)
     unreliable[i] = anchored.hidden[i] | anchored.on_edge[i];
   for (const Candidate& object : candidates)
@@ -158,16 +196,16 @@ void add_static_points(PointTracks& tracks, const AnchoredScan& anchored,
 }
 
 // Prediction of all followed points; where one leaves the lens model, its last position.
-std::vector<cv::Point2f> predict_pixels(const CameraView& view,
-                                        const Pose& T_camera_t_lidar_k, double dt) {
+std::vector<cv::Point2f> predict_pixels(const CameraView& view, const Pose& T_camera_t_lidar_k,
+                                        double dt) {
   std::vector<Pose> of_owner{T_camera_t_lidar_k};
   for (const Candidate& candidate : view.candidates)
     of_owner.push_back(T_camera_t_lidar_k * exp_se3(Twist(candidate.rate * dt)));
   constexpr double kFarOutside = -1e4;
   std::vector<cv::Point2f> pixels(view.points.size());
   for (std::size_t i = 0; i < pixels.size(); ++i) {
-    const auto pixel = project(view.camera.model,
-                               of_owner[view.points.owner[i] + 1] * view.points.point[i], kFarOutside);
+    const auto pixel = project(
+        view.camera.model, of_owner[view.points.owner[i] + 1] * view.points.point[i], kFarOutside);
     pixels[i] = pixel ? cv::Point2f(static_cast<float>(pixel->x()), static_cast<float>(pixel->y()))
                       : view.points.last_px[i];
   }
@@ -188,8 +226,8 @@ Box2d box_of(const CameraModel& camera, const LidarScan& scan, const std::vector
   return box.right < box.left ? Box2d{} : box;
 }
 
-// The points were put on the anchor picture under `rate`; what was found is the motion since then, so
-// the part between scan and anchor follows from it at constant velocity.
+// The points were put on the anchor picture under `rate`; what was found is the motion since then,
+// so the part between scan and anchor follows from it at constant velocity.
 Pose over_whole_interval(const Pose& T_mov, const Twist& rate, double anchor_dt, double dt) {
   if (anchor_dt == 0 || dt - anchor_dt <= 0) return T_mov;
   const Pose since_anchor = T_mov * exp_se3(Twist(rate * anchor_dt)).inverse();
@@ -206,8 +244,15 @@ void start_view(CameraView& view, std::shared_ptr<const Picture> anchor, const K
   const Pose T_camera_lidar_a =
       T_camera_lidar_of(view.camera, scan.T_vehicle_lidar) * T_lidar_a_lidar_k;
   const AnchoredScan anchored = anchor_scan(scan, camera, T_camera_lidar_a);
-  view.candidates = find_candidates(view, *anchor, key, T_camera_lidar_a, visible_points(anchored), known,
-                                    detector, config);
+  view.candidates = find_candidates(view, *anchor, key, T_camera_lidar_a, visible_points(anchored),
+                                    known, detector, config);
+  if (config.object_motion.prior.enabled) measure_motions(view.candidates, view.past, key);
+  for (Candidate& candidate : view.candidates)
+    if (candidate.known)
+      candidate.rate =
+          rate_of(*candidate.known, key.T_rest_lidar_k.linear().transpose(), candidate.centroid);
+  remember(view.past, key, view.candidates);
+  view.R_rest_lidar_k = key.T_rest_lidar_k.linear();
   view.points = {};
   view.anchor_dt = seconds_between(scan.stamp, anchor->instant);
   if (std::abs(view.anchor_dt) * 1e3 <= config.timing.pair_tolerance_ms) view.anchor_dt = 0;
@@ -216,7 +261,8 @@ void start_view(CameraView& view, std::shared_ptr<const Picture> anchor, const K
   cv::cornerMinEigenVal(anchor->image.gray, texture, 5);
   for (std::size_t i = 0; i < view.candidates.size(); ++i) {
     const Candidate& candidate = view.candidates[i];
-    auto points = followable_points(anchored, candidate.points, 2 * config.object_motion.min_points);
+    auto points =
+        followable_points(anchored, candidate.points, 2 * config.object_motion.min_points);
     if (view.anchor_dt != 0 && !candidate.rate.isZero())
       reproject(points, scan, camera,
                 T_camera_lidar_a * exp_se3(Twist(candidate.rate * view.anchor_dt)));
@@ -240,8 +286,8 @@ void follow_view(CameraView& view, const Picture& picture, const LidarScan& key_
 }
 
 std::vector<ObjectMotion> estimate_motions(CameraView& view, const Picture& picture,
-                                           const LidarScan& key_scan,
-                                           const Pose& T_lidar_t_lidar_k, const Config& config) {
+                                           const LidarScan& key_scan, const Pose& T_lidar_t_lidar_k,
+                                           const Config& config) {
   MotionQuery query;
   query.camera = view.camera.model;
   query.T_camera_lidar = T_camera_lidar_of(view.camera, key_scan.T_vehicle_lidar);
@@ -252,11 +298,13 @@ std::vector<ObjectMotion> estimate_motions(CameraView& view, const Picture& pict
   tbb::parallel_for(std::size_t{0}, motions.size(), [&](std::size_t i) {
     Candidate& candidate = view.candidates[i];
     MotionQuery own = query;
-    own.T_mov_predicted = exp_se3(Twist(candidate.rate * query.dt));
+    own.centroid_lidar_k = candidate.centroid;
+    own.is_known = candidate.known.has_value();
+    own.prior = expect_motion(candidate.known, key_scan.stamp, view.R_rest_lidar_k.transpose(),
+                              candidate.centroid, query.dt, config.object_motion.prior);
     ObjectMotion& motion = motions[i];
     motion = estimate_object_motion(correspondences_of(view.points, static_cast<int>(i)), own,
                                     config.object_motion);
-    motion.centroid_lidar_k = centroid_of(key_scan, candidate.points);
     if (motion.status == MotionStatus::moving) {
       const Pose T_mov =
           over_whole_interval(motion.T_mov, candidate.rate, view.anchor_dt, query.dt);

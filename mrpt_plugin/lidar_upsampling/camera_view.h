@@ -9,6 +9,7 @@
 
 #include "lidar_upsampling/config.h"
 #include "lidar_upsampling/objects/detector.h"
+#include "lidar_upsampling/objects/known_motion.h"
 #include "lidar_upsampling/objects/point_tracks.h"
 #include "lidar_upsampling/objects/scene_segments.h"
 #include "lidar_upsampling/objects/tracks.h"
@@ -28,15 +29,18 @@ struct Picture {
 struct Candidate {
   Detection detection;
   int track_id = -1;
-  std::vector<int> points;      ///< indices into the key scan, followed or not
-  Twist rate = Twist::Zero();   ///< motion over ground per second, in the lidar frame at k
+  std::vector<int> points;  ///< indices into the key scan, followed or not
+  Eigen::Vector3d centroid = Eigen::Vector3d::Zero();  ///< lidar frame at k
+  std::optional<KnownMotion> known;  ///< measured before the key scan's first image
+  Twist rate =
+      Twist::Zero();  ///< motion over ground per second, in the lidar frame at k, as last estimated
 };
 
-/// What is known of an object before it is looked at: over ground, in a frame at rest.
-struct KnownMotion {
+/// The objects of the scan before, for their motion from scan to scan.
+struct PastObjects {
   Stamp stamp;
-  Eigen::Vector3d velocity_at_rest = Eigen::Vector3d::Zero();  ///< m/s
-  double yaw_rate = 0;                                         ///< rad/s
+  Pose T_rest_lidar;
+  std::map<int, std::vector<Eigen::Vector3f>> points;  ///< by track id, lidar frame then
 };
 
 /// The key scan as the steps of every camera need it.
@@ -54,17 +58,21 @@ struct CameraView {
   Camera camera;
   Tracker tracker;
   std::shared_ptr<const Picture> last;
-  std::shared_ptr<const Picture> anchor;  ///< where the key scan's points were put; null: nowhere yet
-  double anchor_dt = 0;                   ///< s from the key scan to the anchor
+  std::shared_ptr<const Picture>
+      anchor;            ///< where the key scan's points were put; null: nowhere yet
+  double anchor_dt = 0;  ///< s from the key scan to the anchor
   std::vector<Candidate> candidates;
   PointTracks points;
+  PastObjects past;
+  Eigen::Matrix3d R_rest_lidar_k = Eigen::Matrix3d::Identity();
 };
 
-/// @brief Puts the key scan on the anchor picture: object candidates found, tracked from scan to scan,
-/// their points and static ones chosen to be followed (paper, "Object Detection and Tracking", "Defining
-/// Object Points and Tracking Them").
+/// @brief Puts the key scan on the anchor picture: object candidates found, tracked from scan to
+/// scan, their points and static ones chosen to be followed (paper, "Object Detection and
+/// Tracking", "Defining Object Points and Tracking Them").
 /// @param T_lidar_a_lidar_k ego-motion from the key scan to the anchor's instant.
-/// @param known motions by track id.
+/// @param known motions by track id, from images; the motion between the last two scans is measured
+/// here.
 /// @param with_static_points whether static ones are needed, for the camera's own ego-motion.
 void start_view(CameraView& view, std::shared_ptr<const Picture> anchor, const KeyScanView& key,
                 const Pose& T_lidar_a_lidar_k, const std::map<int, KnownMotion>& known,
@@ -75,7 +83,8 @@ void start_view(CameraView& view, std::shared_ptr<const Picture> anchor, const K
 void follow_view(CameraView& view, const Picture& picture, const LidarScan& key_scan,
                  const Pose& T_lidar_t_lidar_k_predicted, const Config& config);
 
-/// @brief Motion of every candidate at the picture's instant; sets their rates for the next picture.
+/// @brief Motion of every candidate at the picture's instant; sets their rates for the next
+/// picture.
 [[nodiscard]] std::vector<ObjectMotion> estimate_motions(CameraView& view, const Picture& picture,
                                                          const LidarScan& key_scan,
                                                          const Pose& T_lidar_t_lidar_k,

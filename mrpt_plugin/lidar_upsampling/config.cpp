@@ -108,16 +108,17 @@ class Loader : public SettingVisitor {
     if (source_.sectionExists(section_)) source_.getAllKeys(section_, keys);
     for (const std::string& key : keys)
       if (known_.count(key) == 0 && !belongs_to_driver(key))
-        throw std::invalid_argument("[" + section_ + "] " + key + ": there is no such setting; there are " +
+        throw std::invalid_argument("[" + section_ + "] " + key +
+                                    ": there is no such setting; there are " +
                                     joined({known_.begin(), known_.end()}, ", "));
   }
 
  private:
   // A live sensor's section also holds the keys of MRPT's own sensor base class.
   [[nodiscard]] bool belongs_to_driver(const std::string& key) const {
-    static const std::set<std::string> driver_keys{"driver", "process_rate", "sensorLabel",
-                                                   "max_queue_len", "grab_decimation",
-                                                   "external_images_format"};
+    static const std::set<std::string> driver_keys{"driver",          "process_rate",
+                                                   "sensorLabel",     "max_queue_len",
+                                                   "grab_decimation", "external_images_format"};
     return section_ == main_section_ && main_section_ != kMainSection && driver_keys.count(key) > 0;
   }
 
@@ -220,7 +221,7 @@ void Config::loadFromConfigFile(const CConfigFileBase& source, const std::string
   Loader loader(source, section);
   visit_settings(*this, loader);
   loader.reject_unknown_keys();
-  if (preset == "paper") object_motion.static_test = false;
+  if (preset == "paper") object_motion.static_test = object_motion.prior.enabled = false;
 }
 
 void Config::saveToConfigFile(CConfigFileBase& target, const std::string& section) const {
@@ -240,7 +241,8 @@ void check_sections(const CConfigFileBase& source) {
   source.getAllSections(sections);
   defaults.getAllSections(known);
   for (const std::string& section : sections) {
-    if (section.empty() || section.rfind("camera.", 0) == 0 || section.rfind("lidar.", 0) == 0) continue;
+    if (section.empty() || section.rfind("camera.", 0) == 0 || section.rfind("lidar.", 0) == 0)
+      continue;
     if (std::find(known.begin(), known.end(), section) == known.end())
       throw std::invalid_argument("[" + section + "]: there is no such section; there are " +
                                   joined(known, ", ") + ", camera.<LABEL>, lidar.<LABEL>");

@@ -9,7 +9,6 @@
 
 #include "lidar_upsampling/ego/camera_ego.h"
 #include "lidar_upsampling/ego/ego_motion.h"
-#include "lidar_upsampling/ego/scan_registration.h"
 #include "lidar_upsampling/ego/static_points.h"
 #include "lidar_upsampling/objects/detector.h"
 #include "lidar_upsampling/objects/object_motion.h"
@@ -17,6 +16,7 @@
 #include "lidar_upsampling/objects/point_tracks.h"
 #include "lidar_upsampling/objects/scene_segments.h"
 #include "lidar_upsampling/objects/tracks.h"
+#include "lidar_upsampling/registration/scan_registration.h"
 #include "lidar_upsampling/scan/compose.h"
 #include "lidar_upsampling/vision/klt.h"
 
@@ -29,11 +29,12 @@ struct TimingOptions {
   double min_gap_ms = 15;            ///< no virtual scan is due this close to a real one
   double group_tolerance_ms = 5;     ///< images of several cameras that make one virtual scan
   double max_key_age_ms = 500;       ///< no virtual scan from a scan older than this
-  double max_anchor_gap_ms = 120;    ///< points are first put on a picture at most this long before the scan
+  double max_anchor_gap_ms =
+      120;  ///< points are first put on a picture at most this long before the scan
 };
 
-/// @brief All settings, with defaults that densify any sane log. Loaded from an INI file; the section
-/// handed to `loadFromConfigFile` holds the main keys, each step has a section of its own.
+/// @brief All settings, with defaults that densify any sane log. Loaded from an INI file; the
+/// section handed to `loadFromConfigFile` holds the main keys, each step has a section of its own.
 struct Config : public mrpt::config::CLoadableOptions {
   std::string lidar_label;                 ///< empty: the only LiDAR there is
   std::vector<std::string> camera_labels;  ///< empty: every image stream with a calibration
@@ -59,8 +60,8 @@ struct Config : public mrpt::config::CLoadableOptions {
   KltOptions klt;
   ObjectMotionOptions object_motion;
 
-  /// @throw std::invalid_argument naming section, key and value: an unknown key in a section of ours, a
-  /// value of the wrong type or outside its range.
+  /// @throw std::invalid_argument naming section, key and value: an unknown key in a section of
+  /// ours, a value of the wrong type or outside its range.
   void loadFromConfigFile(const mrpt::config::CConfigFileBase& source,
                           const std::string& section) override;
   void saveToConfigFile(mrpt::config::CConfigFileBase& target,
@@ -73,8 +74,8 @@ struct Config : public mrpt::config::CLoadableOptions {
 /// The main keys' section in files of our own.
 inline constexpr const char* kMainSection = "lidar_upsampling";
 
-/// @brief Rejects sections that are neither ours nor those of the rig (`camera.*`, `lidar.*`): for files that
-/// are all our own, where such a section is a misspelt one.
+/// @brief Rejects sections that are neither ours nor those of the rig (`camera.*`, `lidar.*`): for
+/// files that are all our own, where such a section is a misspelt one.
 /// @throw std::invalid_argument with the sections there are.
 void check_sections(const mrpt::config::CConfigFileBase& source);
 

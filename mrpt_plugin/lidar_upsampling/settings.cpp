@@ -19,8 +19,10 @@ void visit_main(Config& c, SettingVisitor& v) {
   v.text("output_label", c.output_label,
          "sensor label of the virtual scans; empty: the LiDAR's with _VIRTUAL behind it");
   v.word("carrier", c.carrier, {"auto", "3drangescan", "pointcloud", "same"},
-         "MRPT class of the virtual scans; auto: the one that this MRPT's maps and viewers handle best");
-  v.integer("compression", c.compression, {0, 9}, "gzip level of the output; above 1 gains nothing");
+         "MRPT class of the virtual scans; auto: the one that this MRPT's maps and viewers handle "
+         "best");
+  v.integer("compression", c.compression, {0, 9},
+            "gzip level of the output; above 1 gains nothing");
   v.word("mode", c.mode, {"causal"}, "causal: only the past is used, as a live system must");
   v.word("preset", c.preset, {"default", "paper"},
          "paper: exactly the published method, every object moved by its own pose");
@@ -41,7 +43,8 @@ void visit_timing(Config& c, SettingVisitor& v) {
            "an image was taken this long before its stamp");
   v.number("pair_tolerance_ms", t.pair_tolerance_ms, {0, 50},
            "an image this close to a scan shows the scan's own instant");
-  v.number("min_gap_ms", t.min_gap_ms, {0, 1000}, "no virtual scan is due this close to a real one");
+  v.number("min_gap_ms", t.min_gap_ms, {0, 1000},
+           "no virtual scan is due this close to a real one");
   v.number("group_tolerance_ms", t.group_tolerance_ms, {0, 100},
            "images of several cameras this close make one virtual scan");
   v.number("max_key_age_ms", t.max_key_age_ms, {1, 10000},
@@ -80,19 +83,26 @@ void visit_detector(Config& c, SettingVisitor& v) {
   ClusterDetectorOptions& k = d.clusters;
   v.integer("cluster_min_points", k.min_points, kPositive, "clusters: fewer points are no object");
   v.number("cluster_max_range_m", k.max_range, kPositive, "clusters: farther ones are left static");
-  v.number("cluster_min_height_m", k.min_height, kNotNegative, "clusters: highest point over ground, at least");
-  v.number("cluster_max_height_m", k.max_height, kPositive, "clusters: highest point over ground, at most");
-  v.number("cluster_max_bottom_m", k.max_bottom, kNotNegative, "clusters: lowest point over ground, at most");
-  v.number("cluster_min_length_m", k.min_length, kNotNegative, "clusters: longer side of the footprint, at least");
-  v.number("cluster_max_length_m", k.max_length, kPositive, "clusters: longer side of the footprint, at most");
-  v.number("cluster_max_width_m", k.max_width, kPositive, "clusters: shorter side of the footprint, at most");
+  v.number("cluster_min_height_m", k.min_height, kNotNegative,
+           "clusters: highest point over ground, at least");
+  v.number("cluster_max_height_m", k.max_height, kPositive,
+           "clusters: highest point over ground, at most");
+  v.number("cluster_max_bottom_m", k.max_bottom, kNotNegative,
+           "clusters: lowest point over ground, at most");
+  v.number("cluster_min_length_m", k.min_length, kNotNegative,
+           "clusters: longer side of the footprint, at least");
+  v.number("cluster_max_length_m", k.max_length, kPositive,
+           "clusters: longer side of the footprint, at most");
+  v.number("cluster_max_width_m", k.max_width, kPositive,
+           "clusters: shorter side of the footprint, at most");
   NetworkDetectorOptions& n = d.network;
   v.text("model", n.model, "network: Darknet .weights or .onnx of the YOLO families");
   v.text("config", n.config, "network: Darknet .cfg, empty for ONNX");
   v.text("classes", n.classes, "network: file with a class name per line");
   v.list("wanted", n.wanted, "network: classes that count");
   v.number("min_confidence", n.min_confidence, kShare, "network: weaker boxes are dropped");
-  v.number("max_overlap", n.max_overlap, kShare, "network: of two boxes that overlap more, one goes");
+  v.number("max_overlap", n.max_overlap, kShare,
+           "network: of two boxes that overlap more, one goes");
   v.integer("input_width", n.input_width, kNotNegative, "network: pixels; 0: as the model says");
   v.integer("input_height", n.input_height, kNotNegative, "network: pixels; 0: as the model says");
   v.text("boxes", d.csv.path, "csv: label,stamp,class,score,left,top,right,bottom[,track]");
@@ -103,29 +113,36 @@ void visit_detector(Config& c, SettingVisitor& v) {
 void visit_scene(Config& c, SettingVisitor& v) {
   GroundOptions& g = c.segments.ground;
   v.section("ground", "The ground, which belongs to no object.");
-  v.number("cell_size_m", g.cell_size, kPositive, "side of the cells whose lowest points are followed");
+  v.number("cell_size_m", g.cell_size, kPositive,
+           "side of the cells whose lowest points are followed");
   v.number("max_tilt_deg", g.max_tilt_deg, {0, 60}, "from the vehicle's xy plane, near the sensor");
   v.number("max_slope", g.max_slope, kPositive, "rise per distance from cell to cell");
   v.number("ground_thickness_m", g.ground_thickness, kPositive, "points up to here belong to it");
   ClusterOptions& k = c.segments.clusters;
   v.section("clusters", "Euclidean clusters of what stands on the ground.");
-  v.number("min_distance_m", k.min_distance, kPositive, "between points of one object, at the sensor");
-  v.number("distance_per_range", k.distance_per_range, kNotNegative, "added per metre from the sensor");
+  v.number("min_distance_m", k.min_distance, kPositive,
+           "between points of one object, at the sensor");
+  v.number("distance_per_range", k.distance_per_range, kNotNegative,
+           "added per metre from the sensor");
   v.number("max_distance_m", k.max_distance, kPositive, "between points of one object, at most");
-  v.number("voxel_size_m", k.voxel_size, kNotNegative, "points this close are handled as one; 0: each alone");
+  v.number("voxel_size_m", k.voxel_size, kNotNegative,
+           "points this close are handled as one; 0: each alone");
   v.integer("min_points", k.min_points, kPositive, "smaller clusters are dropped");
   TrackerOptions& t = c.tracks;
   v.section("tracks", "Objects from scan to scan.");
   v.number("min_overlap", t.min_overlap, kShare, "of a box with the predicted one");
   v.number("max_distance_m", t.max_distance, kPositive, "of a centroid from the predicted one");
-  v.integer("max_misses", t.max_misses, kNotNegative, "scans without a sight that a track survives");
+  v.integer("max_misses", t.max_misses, kNotNegative,
+            "scans without a sight that a track survives");
 }
 
 void visit_vision(Config& c, SettingVisitor& v) {
   PointTrackOptions& p = c.point_tracks;
   v.section("points", "Which LiDAR points are followed on the picture.");
-  v.integer("max_points_per_object", p.max_points_per_object, {4, 5000}, "well spread, best texture first");
-  v.integer("num_static_points", c.static_points.max_points, {20, 5000}, "for ego-motion from the camera");
+  v.integer("max_points_per_object", p.max_points_per_object, {4, 5000},
+            "well spread, best texture first");
+  v.integer("num_static_points", c.static_points.max_points, {20, 5000},
+            "for ego-motion from the camera");
   v.integer("border_px", p.border_px, kNotNegative, "distance kept from the picture's border");
   KltOptions& k = c.klt;
   v.section("klt", "Following points from image to image (Kanade-Lucas-Tomasi).");
@@ -133,27 +150,44 @@ void visit_vision(Config& c, SettingVisitor& v) {
   v.integer("pyramid_levels", k.pyramid_levels, {0, 8}, "halvings above the full picture");
   v.integer("max_iterations", k.max_iterations, {1, 1000}, "per level");
   v.number("epsilon_px", k.epsilon_px, kPositive, "a step this short ends the iteration");
-  v.number("max_forward_backward_px", k.max_forward_backward_px, kPositive, "error after tracking there and back");
+  v.number("max_forward_backward_px", k.max_forward_backward_px, kPositive,
+           "error after tracking there and back");
   v.number("min_eigenvalue", k.min_eigenvalue, kNotNegative, "of the patch's gradient matrix");
-  v.number("max_residual", k.max_residual, kPositive, "mean difference of the patches, gray levels");
+  v.number("max_residual", k.max_residual, kPositive,
+           "mean difference of the patches, gray levels");
 }
 
 void visit_motion(Config& c, SettingVisitor& v) {
   ObjectMotionOptions& o = c.object_motion;
   v.section("object_motion", "Each object's own motion.");
   v.number("sigma_px", o.pose.sigma_px, kPositive, "noise of a followed point, per axis");
-  v.number("outlier_range_px", o.pose.outlier_range_px, kPositive, "square in which a wrong point may lie");
+  v.number("outlier_range_px", o.pose.outlier_range_px, kPositive,
+           "square in which a wrong point may lie");
   v.number("loss_scale_px", o.pose.loss_scale_px, kPositive, "of the Cauchy loss");
   v.integer("min_inliers", o.pose.min_inliers, {4, 1e6}, "fewer are no consensus");
   v.number("min_inlier_ratio", o.pose.min_inlier_ratio, kShare, "less is no consensus");
   v.integer("max_iterations", o.pose.ransac.max_iterations, {1, 1e6}, "of the MLESAC loop");
-  v.number("confidence", o.pose.ransac.confidence, {0.01, 0.999999}, "of having drawn a clean sample");
+  v.number("confidence", o.pose.ransac.confidence, {0.01, 0.999999},
+           "of having drawn a clean sample");
   v.integer("min_points", o.min_points, {4, 1e6}, "followed points; fewer: the ego-motion is used");
   v.number("max_speed_m_s", o.max_speed, kPositive, "over ground; faster is no consensus");
-  v.flag("static_test", o.static_test, "an object that cannot be told from a parked one stays parked");
-  v.number("static_significance", o.static_significance, kNotNegative, "chi-square of 6 degrees of freedom");
+  v.flag("static_test", o.static_test,
+         "an object that cannot be told from a parked one stays parked");
+  v.number("static_significance", o.static_significance, kNotNegative,
+           "chi-square of 6 degrees of freedom");
+  v.number("static_tolerance_px", o.static_tolerance_px, kNotNegative,
+           "what ego-motion and calibration may be wrong on the picture");
   v.number("points_per_observation", o.points_per_observation, {1, 1000},
            "neighbouring points err alike: so many count as one");
+  MotionPriorOptions& p = o.prior;
+  v.flag("prior", p.enabled, "the motion between the last real scans, and the ground, weigh in");
+  v.number("unknown_speed_sigma_m_s", p.unknown_speed_sigma, kPositive,
+           "of an object seen for the first time");
+  v.number("acceleration_sigma_m_s2", p.acceleration_sigma, kPositive,
+           "by how much velocities change");
+  v.number("yaw_rate_sigma_rad_s", p.yaw_rate_sigma, kPositive, "of an object known before");
+  v.number("height_sigma_m", p.height_sigma_m, kPositive, "vehicles stay on the ground");
+  v.number("tilt_sigma_deg", p.tilt_sigma_deg, kPositive, "vehicles stay level");
 }
 
 }  // namespace

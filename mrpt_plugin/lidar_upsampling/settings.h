@@ -34,8 +34,7 @@ class SettingVisitor {
   virtual void text(const char* key, std::string& value, const char* comment) = 0;
   virtual void list(const char* key, std::vector<std::string>& value, const char* comment) = 0;
   /// `value` is a position in `choices`.
-  virtual void choice(const char* key, int& value, const Choices& choices,
-                      const char* comment) = 0;
+  virtual void choice(const char* key, int& value, const Choices& choices, const char* comment) = 0;
 
   template <typename Enum>
   void choice_of(const char* key, Enum& value,

@@ -10,6 +10,8 @@ const char* to_string(MotionStatus status) {
       return "moving";
     case MotionStatus::stationary:
       return "stationary";
+    case MotionStatus::predicted:
+      return "predicted";
     case MotionStatus::too_few_points:
       return "too_few_points";
     case MotionStatus::no_consensus:

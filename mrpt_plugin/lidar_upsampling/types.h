@@ -50,8 +50,8 @@ struct LidarScan {
   [[nodiscard]] std::size_t size() const { return points.size(); }
 };
 
-/// MRPT's and OpenCV's distortion models; `distortion` is k1 k2 p1 p2 k3 k4 k5 k6 (plumb bob), or k1
-/// k2 at 0, 1 and k3 k4 at 4, 5 (Kannala-Brandt), as in mrpt::img::TCamera.
+/// MRPT's and OpenCV's distortion models; `distortion` is k1 k2 p1 p2 k3 k4 k5 k6 (plumb bob), or
+/// k1 k2 at 0, 1 and k3 k4 at 4, 5 (Kannala-Brandt), as in mrpt::img::TCamera.
 enum class DistortionModel { none, plumb_bob, kannala_brandt };
 
 struct CameraModel {
@@ -95,14 +95,15 @@ struct Detection {
   Box2d box;
   std::string class_name;
   double score = 1;
-  int external_track = -1;   ///< identity given by the detector itself, -1 if none
-  std::vector<int> points;   ///< indices into the key scan where the detector knows them
+  int external_track = -1;  ///< identity given by the detector itself, -1 if none
+  std::vector<int> points;  ///< indices into the key scan where the detector knows them
 };
 
 /// What became of an object at one image.
 enum class MotionStatus {
   moving,          ///< its own motion was estimated
   stationary,      ///< its own motion was estimated and is not distinguishable from none
+  predicted,       ///< the picture said nothing: moved on as measured between the last real scans
   too_few_points,  ///< fewer tracked points than a pose needs: ego-motion used
   no_consensus     ///< the tracked points agree on no rigid motion: ego-motion used
 };
@@ -114,7 +115,7 @@ struct ObjectMotion {
   std::string camera_label;
   MotionStatus status = MotionStatus::too_few_points;
   Pose T_lidar_t_lidar_k = Pose::Identity();  ///< ego- and object motion together (eq. 5, T_D)
-  Pose T_mov = Pose::Identity();              ///< object motion alone, in the lidar frame at k (eq. 3)
+  Pose T_mov = Pose::Identity();  ///< object motion alone, in the lidar frame at k (eq. 3)
   Eigen::Vector3d centroid_lidar_k = Eigen::Vector3d::Zero();  ///< of its points
   Eigen::Vector3d velocity_lidar_k = Eigen::Vector3d::Zero();  ///< of the centroid over ground, m/s
   double yaw_rate = 0;                                         ///< rad/s about lidar +Z
@@ -123,6 +124,7 @@ struct ObjectMotion {
   int num_tracked = 0;                                         ///< points that KLT followed
   int num_inliers = 0;                                         ///< of them, those that agree
   double rmse_px = 0;                                          ///< of the inliers
+  double position_sigma_m = 0;  ///< of the centroid, its least certain direction; 0: not known
 };
 
 /// How long a stage took for one image or scan.
@@ -133,17 +135,24 @@ struct StageTime {
 
 /// A scan that no sensor took: the key scan's points at an image's instant.
 struct VirtualScan {
-  LidarScan scan;                     ///< stamp = the image's; label = the output label
-  Stamp key_stamp;                    ///< of the real scan it was made from
-  std::vector<int> source_index;      ///< of each point, in the key scan
-  std::vector<int> track_id;          ///< of each point, -1: static scene
-  std::vector<ObjectMotion> objects;  ///< every candidate, whatever became of it
+  LidarScan scan;                             ///< stamp = the image's; label = the output label
+  Stamp key_stamp;                            ///< of the real scan it was made from
+  std::vector<int> source_index;              ///< of each point, in the key scan
+  std::vector<int> track_id;                  ///< of each point, -1: static scene
+  std::vector<ObjectMotion> objects;          ///< every candidate, whatever became of it
   Pose T_lidar_t_lidar_k = Pose::Identity();  ///< static scene (eq. 4, T_S)
-  Pose T_rest_lidar_t = Pose::Identity();  ///< lidar frame at t in a frame at rest, the first scan's
+  Pose T_rest_lidar_t =
+      Pose::Identity();  ///< lidar frame at t in a frame at rest, the first scan's
   bool ego_extrapolated = false;
-  std::vector<StageTime> timing;  ///< of this scan's image, and of the key scan's stages at its first use
+  std::vector<StageTime>
+      timing;  ///< of this scan's image, and of the key scan's stages at its first use
 };
 
 [[nodiscard]] const char* to_string(MotionStatus status);
+
+/// Whether the object is moved by a motion of its own.
+[[nodiscard]] inline bool moves(const ObjectMotion& object) {
+  return object.status == MotionStatus::moving || object.status == MotionStatus::predicted;
+}
 
 }  // namespace lidar_upsampling

@@ -8,7 +8,7 @@
 
 #include "lidar_upsampling/camera_view.h"
 #include "lidar_upsampling/ego/camera_ego.h"
-#include "lidar_upsampling/ego/scan_registration.h"
+#include "lidar_upsampling/registration/scan_registration.h"
 #include "lidar_upsampling/se3.h"
 #include "lidar_upsampling/stopwatch.h"
 
@@ -52,16 +52,13 @@ std::shared_ptr<const Picture> make_picture(const CameraImage& image, Stamp inst
                                             const KltOptions& options,
                                             std::vector<StageTime>& timing) {
   const Stopwatch watch(timing, "image pyramid");
-  return std::make_shared<Picture>(
-      Picture{image, instant, ImagePyramid(image.gray, options)});
+  return std::make_shared<Picture>(Picture{image, instant, ImagePyramid(image.gray, options)});
 }
 
 }  // namespace
 
 LidarUpsampler::LidarUpsampler(const Config& config)
-    : config_(config),
-      ego_motion_(config.ego_motion),
-      detector_(make_detector(config.detector)) {}
+    : config_(config), ego_motion_(config.ego_motion), detector_(make_detector(config.detector)) {}
 
 LidarUpsampler::~LidarUpsampler() = default;
 
@@ -127,8 +124,8 @@ std::optional<VirtualScan> LidarUpsampler::flush() {
   learn(motion.objects, newest.instant);
 
   Stopwatch watch(timing_, "composition");
-  VirtualScan scan = compose_virtual_scan(
-      key_->scan, std::move(motion), config_.virtual_label(key_->scan.label), config_.compose);
+  VirtualScan scan = compose_virtual_scan(key_->scan, std::move(motion),
+                                          config_.virtual_label(key_->scan.label), config_.compose);
   watch.stop();
   scan.T_rest_lidar_t = key_->T_rest_lidar_k * scan.T_lidar_t_lidar_k.inverse();
   scan.timing = std::exchange(timing_, {});
@@ -175,8 +172,8 @@ void LidarUpsampler::process(CameraView& view, const Picture& picture) {
   if (!view.anchor && !anchor_is_near) return;
   if (!view.anchor) start(view, view.last);
 
-  ImageResult result{picture.image.stamp, picture.instant, picture.image.camera,
-                     ego_step(picture.instant), {}};
+  ImageResult result{
+      picture.image.stamp, picture.instant, picture.image.camera, ego_step(picture.instant), {}};
   {
     const Stopwatch watch(timing_, "point tracking");
     follow_view(view, picture, key_->scan, result.ego.T_to_from, config_);
@@ -202,8 +199,7 @@ EgoStep LidarUpsampler::ego_step(Stamp instant) const {
 
 EgoStep LidarUpsampler::camera_step(const CameraView& view, const Picture& picture,
                                     const EgoStep& predicted) {
-  const Pose T_camera_lidar =
-      view.camera.T_vehicle_camera.inverse() * key_->scan.T_vehicle_lidar;
+  const Pose T_camera_lidar = view.camera.T_vehicle_camera.inverse() * key_->scan.T_vehicle_lidar;
   const auto step =
       estimate_camera_ego(correspondences_of(view.points, kStaticOwner), view.camera.model,
                           T_camera_lidar, config_.camera_ego, predicted.T_to_from);
@@ -227,13 +223,15 @@ Pose LidarUpsampler::scan_step(const LidarScan& next) {
 
 void LidarUpsampler::learn(const std::vector<ObjectMotion>& objects, Stamp instant) {
   for (const ObjectMotion& object : objects) {
-    const bool moves = object.status == MotionStatus::moving;
-    if (!moves && object.status != MotionStatus::stationary) continue;
+    const bool moving = object.status == MotionStatus::moving;
+    if (!moving && object.status != MotionStatus::stationary) continue;
     KnownMotion& known = known_motions_[object.track_id];
+    known = {};
     known.stamp = instant;
-    known.velocity_at_rest = Eigen::Vector3d::Zero();
-    if (moves) known.velocity_at_rest = key_->T_rest_lidar_k.linear() * object.velocity_lidar_k;
-    known.yaw_rate = moves ? object.yaw_rate : 0;
+    known.velocity_sigma = object.position_sigma_m / seconds_between(key_->scan.stamp, instant);
+    if (!moving) continue;
+    known.velocity_at_rest = key_->T_rest_lidar_k.linear() * object.velocity_lidar_k;
+    known.yaw_rate = object.yaw_rate;
   }
   constexpr double kForgetAfter_s = 2;
   for (auto motion = known_motions_.begin(); motion != known_motions_.end();)

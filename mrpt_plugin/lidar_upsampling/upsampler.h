@@ -20,17 +20,17 @@ struct ImageResult;
 struct KnownMotion;
 struct Picture;
 
-/// @brief Scans and images in, virtual scans out: the whole method, streaming. Observations come in the
-/// order of the log; memory stays at one scan and a few images per camera however long the log.
+/// @brief Scans and images in, virtual scans out: the whole method, streaming. Observations come in
+/// the order of the log; memory stays at one scan and a few images per camera however long the log.
 ///
 /// At the first image after a scan the object candidates of that scan are found and tracked
-/// (objects/), at every image their points are followed on the picture (vision/), ego-motion (ego/) and
-/// each object's own motion (objects/object_motion) are estimated, and the scan is moved (scan/).
-/// Images of several cameras that lie within `group_tolerance_ms` make one virtual scan.
+/// (objects/), at every image their points are followed on the picture (vision/), ego-motion (ego/)
+/// and each object's own motion (objects/object_motion) are estimated, and the scan is moved
+/// (scan/). Images of several cameras that lie within `group_tolerance_ms` make one virtual scan.
 class LidarUpsampler {
  public:
-  /// @throw std::invalid_argument, std::runtime_error settings that cannot work together, a detector's
-  /// missing file.
+  /// @throw std::invalid_argument, std::runtime_error settings that cannot work together, a
+  /// detector's missing file.
   explicit LidarUpsampler(const Config& config);
   ~LidarUpsampler();
   LidarUpsampler(const LidarUpsampler&) = delete;
@@ -39,8 +39,8 @@ class LidarUpsampler {
   /// Poses, odometry and fixes go in here; those of a whole log at once, or as they come.
   EgoMotion& ego_motion() { return ego_motion_; }
 
-  /// Real scans that are to come, where a log on disk tells: no virtual scan is made within `min_gap_ms`
-  /// of one. Without it only the scans already inserted count.
+  /// Real scans that are to come, where a log on disk tells: no virtual scan is made within
+  /// `min_gap_ms` of one. Without it only the scans already inserted count.
   void expect_scans(std::vector<Stamp> stamps);
 
   /// @brief The cameras whose images are to come; a virtual scan is due as soon as each of them has
@@ -51,8 +51,8 @@ class LidarUpsampler {
   /// @return the virtual scan of an earlier instant that still waited for other cameras, if any.
   std::optional<VirtualScan> insert_scan(LidarScan scan);
 
-  /// @return the virtual scan at the image's instant if it is due (one key scan at least, not too close
-  /// to a real scan, all cameras in), or a waiting one of an earlier instant.
+  /// @return the virtual scan at the image's instant if it is due (one key scan at least, not too
+  /// close to a real scan, all cameras in), or a waiting one of an earlier instant.
   std::optional<VirtualScan> insert_image(const CameraImage& image);
 
   /// @return the virtual scan that still waits for other cameras, if any.
@@ -76,10 +76,10 @@ class LidarUpsampler {
   std::unique_ptr<Detector> detector_;
   std::unique_ptr<KeyScan> key_;
   std::map<std::string, std::unique_ptr<CameraView>> views_;
-  std::vector<ImageResult> group_;              ///< of the instant under way
-  std::map<int, KnownMotion> known_motions_;    ///< by track id
-  Twist lidar_rate_ = Twist::Zero();            ///< of the last ego-motion, per second
-  std::vector<StageTime> timing_;               ///< since the last virtual scan
+  std::vector<ImageResult> group_;            ///< of the instant under way
+  std::map<int, KnownMotion> known_motions_;  ///< by track id
+  Twist lidar_rate_ = Twist::Zero();          ///< of the last ego-motion, per second
+  std::vector<StageTime> timing_;             ///< since the last virtual scan
   std::vector<Stamp> expected_scans_;
   std::size_t expected_cameras_ = 0;
   double scan_period_s_ = 0;

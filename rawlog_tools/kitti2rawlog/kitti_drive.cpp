@@ -28,6 +28,12 @@ std::int64_t ticks_of_fraction(std::string digits) {
   return (std::stoll(digits) + 50) / 100;
 }
 
+[[noreturn]] void throw_bad_stamp(const std::string& path, std::size_t number,
+                                  const std::string& line) {
+  throw std::runtime_error(path + ", line " + std::to_string(number) + ": '" + line +
+                           "' is no time stamp");
+}
+
 std::vector<std::optional<Stamp>> read_stamps(const std::string& path) {
   std::ifstream in(path);
   if (!in) throw std::runtime_error("cannot read the time stamps " + path);
@@ -36,8 +42,7 @@ std::vector<std::optional<Stamp>> read_stamps(const std::string& path) {
     line.erase(line.find_last_not_of(" \r\t") + 1);
     const auto stamp = parse_stamp(line);
     if (!stamp && !line.empty()) {
-      throw std::runtime_error(path + ", line " + std::to_string(stamps.size() + 1) + ": '" + line +
-                               "' is no time stamp");
+      throw_bad_stamp(path, stamps.size() + 1, line);
     }
     stamps.push_back(stamp);
   }

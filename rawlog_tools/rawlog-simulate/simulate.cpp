@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <optional>
+#include <stdexcept>
 #include <tuple>
 
 #include "ego_observations.h"
@@ -207,6 +208,9 @@ class Simulation {
 }  // namespace
 
 SimulationSummary simulate(const SimulationJob& job, const std::function<void(double)>& progress) {
+  if (job.output == job.truth) {
+    throw std::runtime_error(job.truth + ": the truth cannot go into the log itself");
+  }
   Simulation simulation(job);
   simulation.run(progress);
   return simulation.finish();

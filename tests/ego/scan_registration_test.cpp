@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the lidar_upsampling authors
-#include "lidar_upsampling/ego/scan_registration.h"
+#include "lidar_upsampling/registration/scan_registration.h"
 
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
 #include "drive.h"
-#include "lidar_upsampling/ego/surface.h"
+#include "lidar_upsampling/registration/surface.h"
 #include "street.h"
 
 namespace lidar_upsampling {

@@ -32,7 +32,7 @@ Stamp at(double seconds) {
 
 template <typename T>
 std::shared_ptr<T> observation(const std::string& label, double seconds) {
-  const auto made = T::Create();
+  auto made = T::Create();
   made->sensorLabel = label;
   made->timestamp = at(seconds);
   return made;

@@ -21,7 +21,7 @@ namespace lidar_upsampling {
 using Bytes = std::vector<std::uint8_t>;
 
 inline mrpt::obs::CObservationOdometry::Ptr odometry(int i) {
-  const auto observation = mrpt::obs::CObservationOdometry::Create();
+  auto observation = mrpt::obs::CObservationOdometry::Create();
   observation->sensorLabel = "ODO";
   observation->timestamp = Stamp(mrpt::Clock::duration(132000000000000000LL + i * 1000003LL));
   observation->odometry = mrpt::poses::CPose2D(0.1 * i, 0.2, 0.3);

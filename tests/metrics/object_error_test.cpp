@@ -6,8 +6,8 @@
 
 #include "../ego/drive.h"
 #include "../ego/street.h"
-#include "lidar_upsampling/ego/se3.h"
 #include "lidar_upsampling/metrics/scan_motion.h"
+#include "lidar_upsampling/se3.h"
 
 namespace lidar_upsampling {
 namespace {
@@ -82,7 +82,7 @@ TEST(ObjectRegistration, finds_the_motion_of_cars_that_turn_overtake_and_come) {
     const auto found = register_object(scene.points, make_surface(scene.reference.points),
                                        {scene.T_ego, Pose::Identity()});
     EXPECT_EQ(found.status, RegistrationStatus::reliable) << to_string(found.status);
-    EXPECT_LT(position_error(scene.truth(), found.T_target_object), 0.06);  // half the beams' spacing
+    EXPECT_LT(position_error(scene.truth(), found.T_target_object), 0.06);
   }
 }
 

@@ -15,7 +15,6 @@ namespace {
 
 using testing::BoxObject;
 using testing::flat;
-using testing::kOnGround;
 using testing::make_street;
 using testing::Street;
 
@@ -28,11 +27,10 @@ std::vector<int> all_of(const std::vector<Eigen::Vector3f>& points) {
 /// A lattice of points filling a block.
 void add_block(std::vector<Eigen::Vector3f>& points, const Eigen::Vector3f& corner,
                const Eigen::Vector3f& size, float step = 0.1F) {
-  for (float x = 0; x <= size.x(); x += step) {
-    for (float y = 0; y <= size.y(); y += step) {
-      for (float z = 0; z <= size.z(); z += step)
-        points.push_back(corner + Eigen::Vector3f(x, y, z));
-    }
+  const Eigen::Vector3i count = (size / step).array().round().cast<int>() + 1;
+  for (int i = 0; i < count.prod(); ++i) {
+    const Eigen::Vector3i cell(i % count.x(), i / count.x() % count.y(), i / count.x() / count.y());
+    points.emplace_back(corner + step * cell.cast<float>());
   }
 }
 
@@ -89,8 +87,8 @@ TEST(Clusters, rings_far_apart_are_bridged_upwards_but_not_sideways) {
 TEST(Clusters, are_the_components_that_comparing_all_pairs_gives) {
   std::mt19937 generator(3);
   std::uniform_real_distribution<float> place(-6, 6);
-  std::vector<Eigen::Vector3f> points;
-  for (int i = 0; i < 400; ++i) points.emplace_back(20 + place(generator), place(generator), 0.F);
+  std::vector<Eigen::Vector3f> points(400);
+  for (Eigen::Vector3f& point : points) point = {20 + place(generator), place(generator), 0};
   ClusterOptions options;
   options.voxel_size = 1e-3;
   options.max_splits = 0;

@@ -14,7 +14,6 @@ namespace {
 using testing::BoxObject;
 using testing::flat;
 using testing::forward_camera;
-using testing::kOnGround;
 using testing::make_street;
 using testing::Street;
 using testing::wide_camera;

@@ -68,15 +68,16 @@ inline Street make_street(const std::function<double(double, double)>& ground,
           hit = static_cast<int>(i);
         }
       }
-      for (double r = 2; r < std::min(range, 90.); r += 0.05) {
+      const double end = std::min(range, 90.);
+      for (int step = 40; 0.05 * step < end; ++step) {
+        const double r = 0.05 * step;
         if (r * ray.z() > ground(r * ray.x(), r * ray.y())) continue;
         range = r;
         hit = kOnGround;
         break;
       }
       if (!(range < 90)) continue;
-      const Eigen::Vector3d point = (range + jitter(generator)) * ray;
-      street.scan.points.push_back(point.cast<float>());
+      street.scan.points.emplace_back(((range + jitter(generator)) * ray).cast<float>());
       street.scan.ring.push_back(static_cast<std::uint16_t>(ring));
       street.scan.column.push_back(static_cast<std::uint16_t>(column));
       street.truth.push_back(hit);

@@ -31,9 +31,8 @@ Scene ground_with_clutter(int num_points, double clutter, double slope_deg = 4) 
     const double x = across(generator);
     const double y = across(generator);
     const Eigen::Vector3d& n = scene.truth.normal;
-    scene.points.push_back(
-        Eigen::Vector3d(x, y, (above - scene.truth.d - n.x() * x - n.y() * y) / n.z())
-            .cast<float>());
+    const double z = (above - scene.truth.d - n.x() * x - n.y() * y) / n.z();
+    scene.points.emplace_back(static_cast<float>(x), static_cast<float>(y), static_cast<float>(z));
   }
   return scene;
 }
@@ -55,7 +54,9 @@ TEST(MsacPlane, finds_the_ground_among_forty_percent_clutter) {
 
 TEST(MsacPlane, noise_free_points_give_the_exact_plane) {
   std::vector<Eigen::Vector3f> points;
-  for (int i = 0; i < 100; ++i) points.emplace_back(i % 10, i / 10, -2);
+  for (int x = 0; x < 10; ++x) {
+    for (int y = 0; y < 10; ++y) points.emplace_back(x, y, -2);
+  }
   const auto fit = estimate_plane(points);
   ASSERT_TRUE(fit);
   EXPECT_LT((fit->plane.normal - Eigen::Vector3d::UnitZ()).norm(), 1e-9);
@@ -65,9 +66,11 @@ TEST(MsacPlane, noise_free_points_give_the_exact_plane) {
 
 TEST(MsacPlane, a_wall_is_no_ground_however_many_points_it_has) {
   Scene scene = ground_with_clutter(1000, 0);
-  for (int i = 0; i < 2500; ++i) {
-    scene.points.emplace_back(10.F, 0.01F * static_cast<float>(i % 100),
-                              0.05F * static_cast<float>(i / 100));
+  for (int row = 0; row < 25; ++row) {
+    for (int column = 0; column < 100; ++column) {
+      scene.points.emplace_back(10.F, 0.01F * static_cast<float>(column),
+                                0.2F * static_cast<float>(row));
+    }
   }
   const auto fit = estimate_plane(scene.points);
   ASSERT_TRUE(fit);
@@ -97,8 +100,10 @@ TEST(MsacPlane, the_normal_points_to_the_up_axis_given) {
 TEST(MsacPlane, only_the_points_of_the_subset_count) {
   Scene scene = ground_with_clutter(1000, 0);
   const auto num_ground = scene.points.size();
-  for (int i = 0; i < 5000; ++i) {
-    scene.points.emplace_back(static_cast<float>(i % 70), static_cast<float>(i / 70), 3.F);
+  for (int row = 0; row < 70; ++row) {
+    for (int column = 0; column < 70; ++column) {
+      scene.points.emplace_back(static_cast<float>(column), static_cast<float>(row), 3.F);
+    }
   }
   std::vector<int> ground(num_ground);
   std::iota(ground.begin(), ground.end(), 0);

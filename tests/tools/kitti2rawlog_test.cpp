@@ -50,7 +50,7 @@ cv::Mat picture(int number) {
 fs::path write_drive(const TestFolder& folder) {
   const fs::path day = folder.path() / "day";
   write_kitti_calibration(day);
-  const fs::path drive = day / "drive";
+  fs::path drive = day / "drive";
   write_stamps(drive / "velodyne_points", 100);
   write_stamps(drive / "image_02", 110);
   write_stamps(drive / "oxts", 90);

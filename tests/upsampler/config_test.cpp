@@ -51,8 +51,8 @@ TEST(Config, loading_the_default_file_changes_nothing) {
 }
 
 TEST(Config, the_kitti_file_loads) {
-  EXPECT_DOUBLE_EQ(loaded(content_of(PROJECT_FOLDER "/config/kitti.ini")).timing.camera_time_offset_ms,
-                   10.5);
+  EXPECT_DOUBLE_EQ(
+      loaded(content_of(PROJECT_FOLDER "/config/kitti.ini")).timing.camera_time_offset_ms, 10.5);
 }
 
 TEST(Config, values_are_read) {
@@ -74,11 +74,13 @@ TEST(Config, an_unknown_key_is_named_with_those_there_are) {
 }
 
 TEST(Config, a_bad_value_is_named_with_what_is_expected) {
-  EXPECT_NE(error_of("[klt]\nwindow_px = big\n").find("[klt] window_px = 'big': a number"), std::string::npos);
+  EXPECT_NE(error_of("[klt]\nwindow_px = big\n").find("[klt] window_px = 'big': a number"),
+            std::string::npos);
   EXPECT_NE(error_of("[klt]\nwindow_px = 7.5\n").find("a whole number"), std::string::npos);
   EXPECT_NE(error_of("[klt]\nwindow_px = 999\n").find("between"), std::string::npos);
   EXPECT_NE(error_of("[lidar_upsampling]\nobjects = hide\n").find("keep, drop"), std::string::npos);
-  EXPECT_NE(error_of("[object_motion]\nstatic_test = maybe\n").find("true or false"), std::string::npos);
+  EXPECT_NE(error_of("[object_motion]\nstatic_test = maybe\n").find("true or false"),
+            std::string::npos);
 }
 
 TEST(Config, a_misspelt_section_is_named) {
@@ -94,7 +96,8 @@ TEST(Config, a_misspelt_section_is_named) {
 
 TEST(Config, a_live_sensors_section_may_hold_the_drivers_own_keys) {
   mrpt::config::CConfigFileMemory file;
-  file.setContent("[upsampled]\ndriver = UpsampledLidarSensor\nprocess_rate = 50\nobjects = drop\n");
+  file.setContent(
+      "[upsampled]\ndriver = UpsampledLidarSensor\nprocess_rate = 50\nobjects = drop\n");
   Config config;
   config.loadFromConfigFile(file, "upsampled");
   EXPECT_EQ(config.compose.objects, MovingObjects::drop);

@@ -64,15 +64,15 @@ class StreetRun {
     return sim::scan_at(world, scenario.lidar, stamp, 7);
   }
 
-  /// True motion of a world object's points (or, with -1, of the static world) between two instants, in
-  /// the lidar frame.
+  /// True motion of a world object's points (or, with -1, of the static world) between two
+  /// instants, in the lidar frame.
   [[nodiscard]] Pose true_motion(int object, Stamp from, Stamp to) const {
     const double t0 = sim::time_of(from), t1 = sim::time_of(to);
     const Pose T_world_lidar_0 = world.T_world_vehicle(t0) * scenario.lidar.T_vehicle_lidar;
     const Pose T_world_lidar_1 = world.T_world_vehicle(t1) * scenario.lidar.T_vehicle_lidar;
-    const Pose T_object = object < 0 ? Pose::Identity()
-                                     : world.T_world_object(object, t1) *
-                                           world.T_world_object(object, t0).inverse();
+    const Pose T_object =
+        object < 0 ? Pose::Identity()
+                   : world.T_world_object(object, t1) * world.T_world_object(object, t0).inverse();
     return T_world_lidar_1.inverse() * T_object * T_world_lidar_0;
   }
 
@@ -83,7 +83,8 @@ class StreetRun {
       int camera;  // -1: the lidar
     };
     std::vector<Event> events;
-    const auto scans = sim::stamps_of(scenario.lidar.rate_hz, scenario.lidar.phase_s, scenario.duration_s);
+    const auto scans =
+        sim::stamps_of(scenario.lidar.rate_hz, scenario.lidar.phase_s, scenario.duration_s);
     for (const Stamp stamp : scans) events.push_back({stamp, -1});
     std::vector<sim::CameraRenderer> renderers;
     for (const sim::CameraSpec& camera : scenario.cameras) {
@@ -103,9 +104,9 @@ class StreetRun {
       if (scan) virtual_scans.push_back(std::move(*scan));
     };
     for (const Event& event : events)
-      take(event.camera < 0
-               ? upsampler.insert_scan(scan_at(event.stamp).scan)
-               : upsampler.insert_image(renderers[event.camera].render(world, event.stamp, 7).image));
+      take(event.camera < 0 ? upsampler.insert_scan(scan_at(event.stamp).scan)
+                            : upsampler.insert_image(
+                                  renderers[event.camera].render(world, event.stamp, 7).image));
     take(upsampler.flush());
     return virtual_scans;
   }
@@ -114,8 +115,8 @@ class StreetRun {
   sim::World world;
 };
 
-/// Mean distance of a virtual scan's points from where the truth puts them, those of moving objects and
-/// all others apart; negative if there are none.
+/// Mean distance of a virtual scan's points from where the truth puts them, those of moving objects
+/// and all others apart; negative if there are none.
 struct PointErrors {
   double moving = -1, standing = -1;
 };

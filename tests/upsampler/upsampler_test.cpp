@@ -56,12 +56,13 @@ TEST(LidarUpsampler, moving_cars_are_told_from_parked_ones) {
   ASSERT_GE(moving.size(), 2U);
   std::vector<double> speeds;
   for (const ObjectMotion* object : moving) speeds.push_back(object->velocity_lidar_k.x());
-  EXPECT_TRUE(std::any_of(speeds.begin(), speeds.end(), [](double v) { return std::abs(v - 11) < 1; }));
-  EXPECT_TRUE(std::any_of(speeds.begin(), speeds.end(), [](double v) { return std::abs(v + 9) < 1.5; }));
-  EXPECT_TRUE(std::any_of(scans.back().objects.begin(), scans.back().objects.end(),
-                          [](const ObjectMotion& object) {
-                            return object.status == MotionStatus::stationary;
-                          }));
+  EXPECT_TRUE(
+      std::any_of(speeds.begin(), speeds.end(), [](double v) { return std::abs(v - 11) < 1; }));
+  EXPECT_TRUE(
+      std::any_of(speeds.begin(), speeds.end(), [](double v) { return std::abs(v + 9) < 1.5; }));
+  EXPECT_TRUE(std::any_of(
+      scans.back().objects.begin(), scans.back().objects.end(),
+      [](const ObjectMotion& object) { return object.status == MotionStatus::stationary; }));
 }
 
 TEST(LidarUpsampler, point_fields_stay_with_their_points) {
@@ -99,14 +100,16 @@ TEST(LidarUpsampler, a_camera_with_unrelated_stamps_works_as_well) {
 
 TEST(LidarUpsampler, lens_distortion_is_taken_into_account) {
   StreetRun street(
-      "[camera.CAM0]\ndistortion_model = plumb_bob\ndistortion = -0.28 0.09 0.001 -0.0005 -0.01 0 0 0\n");
+      "[camera.CAM0]\ndistortion_model = plumb_bob\ndistortion = -0.28 0.09 0.001 -0.0005 -0.01 0 "
+      "0 0\n");
   LidarUpsampler upsampler{Config()};
   expect_close_to_truth(street, street.run(upsampler), 0.02, 0.08);
 }
 
 TEST(LidarUpsampler, two_cameras_make_one_virtual_scan_per_instant) {
   StreetRun street(
-      "[camera.REAR]\nwidth = 828\nheight = 250\nfx = 480\nrate_hz = 30\norientation_deg = 180 0 0\n"
+      "[camera.REAR]\nwidth = 828\nheight = 250\nfx = 480\nrate_hz = 30\norientation_deg = 180 0 "
+      "0\n"
       "[vehicle.behind]\nx_m = -16\ny_m = -1.7\nspeed_mps = 12\n");
   LidarUpsampler upsampler{Config()};
   upsampler.expect_cameras({"CAM0", "REAR"});
@@ -162,7 +165,8 @@ TEST(LidarUpsampler, scans_and_images_out_of_order_do_no_harm) {
   EXPECT_FALSE(upsampler.insert_scan(first));
   EXPECT_FALSE(upsampler.insert_scan(street.scan_at(sim::stamp_of(0, 10, 0)).scan));
   const sim::CameraRenderer renderer(street.scenario.cameras.front());
-  EXPECT_FALSE(upsampler.insert_image(renderer.render(street.world, sim::stamp_of(0, 30, 0), 7).image));
+  EXPECT_FALSE(
+      upsampler.insert_image(renderer.render(street.world, sim::stamp_of(0, 30, 0), 7).image));
 }
 
 }  // namespace

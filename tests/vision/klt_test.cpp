@@ -228,11 +228,11 @@ TEST(Klt, wrong_input_is_refused) {
   other_window.window_px = 21;
   EXPECT_THROW((void)track_points(pyramid, pyramid, {{50, 50}}, {}, other_window),
                std::invalid_argument);
-  EXPECT_THROW(ImagePyramid(cv::Mat()), std::invalid_argument);
-  EXPECT_THROW(ImagePyramid(cv::Mat(100, 100, CV_8UC3)), std::invalid_argument);
+  EXPECT_THROW(ImagePyramid{cv::Mat()}, std::invalid_argument);
+  EXPECT_THROW((ImagePyramid{cv::Mat(100, 100, CV_8UC3)}), std::invalid_argument);
   KltOptions even_window;
   even_window.window_px = 14;
-  EXPECT_THROW(ImagePyramid(image, even_window), std::invalid_argument);
+  EXPECT_THROW((ImagePyramid{image, even_window}), std::invalid_argument);
   KltOptions huge_alignment;
   huge_alignment.alignment.window_px = 51;
   EXPECT_THROW((void)track_points(pyramid, pyramid, {{50, 50}}, {}, huge_alignment),

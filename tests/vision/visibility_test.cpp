@@ -57,7 +57,7 @@ View view_of(const Scene& scene, const Eigen::Vector3d& lidar) {
                                 std::cos(elevation) * std::cos(azimuth));
       const auto hit = scene.cast(lidar, ray);
       if (hit.surface == Scene::Surface::none) continue;
-      points.push_back((lidar + hit.range * ray).cast<float>());
+      points.emplace_back((lidar + hit.range * ray).cast<float>());
       surfaces.push_back(hit.surface);
     }
   }
@@ -98,9 +98,12 @@ TEST(Occlusion, open_ground_and_a_scanner_at_the_cameras_place_give_no_flags) {
 
 TEST(Occlusion, a_point_amid_nearer_ones_is_hidden_unless_the_margin_says_no) {
   std::vector<ProjectedPoint> points;
-  for (int i = 0; i < 25; ++i) {
-    points.push_back(
-        {i, 100 + 2.F * static_cast<float>(i % 5), 100 + 3.F * static_cast<float>(i / 5), 10.F});
+  points.reserve(26);
+  for (int row = 0; row < 5; ++row) {
+    for (int column = 0; column < 5; ++column) {
+      points.push_back({5 * row + column, 100 + 2 * static_cast<float>(column),
+                        100 + 3 * static_cast<float>(row), 10.F});
+    }
   }
   points.push_back({25, 104.5F, 106.5F, 12.F});
   auto flagged = mark_occluded(points);

@@ -125,8 +125,8 @@ GnssTrack::LocalFit GnssTrack::fit(Stamp center, double half_span, double half_w
 std::optional<double> GnssTrack::course(Stamp center) const {
   // A slow vehicle takes a longer look to move by a step.
   const double narrow = half_window(center);
-  for (double window = narrow; window <= 4 * narrow; window *= 2) {
-    const LocalFit local = fit(center, 0, window);
+  for (const int widening : {1, 2, 4}) {
+    const LocalFit local = fit(center, 0, widening * narrow);
     if (local.moving) {
       const double yaw_rate = (local.velocity.x() * local.acceleration.y() -
                                local.velocity.y() * local.acceleration.x()) /

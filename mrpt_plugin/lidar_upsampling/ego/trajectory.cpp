@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "lidar_upsampling/ego/se3.h"
+#include "lidar_upsampling/se3.h"
 
 namespace lidar_upsampling {
 

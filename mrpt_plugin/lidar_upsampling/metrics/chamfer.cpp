@@ -10,7 +10,7 @@
 #include <optional>
 #include <stdexcept>
 
-#include "lidar_upsampling/ego/point_index.h"
+#include "lidar_upsampling/registration/point_index.h"
 
 namespace lidar_upsampling {
 

@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "lidar_upsampling/metrics/object_registration.h"
+#include "lidar_upsampling/registration/object_registration.h"
 #include "lidar_upsampling/types.h"
 
 namespace lidar_upsampling {

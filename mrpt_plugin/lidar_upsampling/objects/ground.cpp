@@ -7,6 +7,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <optional>
 #include <queue>
 #include <stdexcept>
 #include <string>
@@ -22,7 +24,7 @@ constexpr std::size_t kGrain = 8192;  ///< points per task
 /// Square cells around the origin of a frame whose z is up.
 class CellGrid {
  public:
-  CellGrid(const GroundOptions& options)
+  explicit CellGrid(const GroundOptions& options)
       : half_(static_cast<int>(std::ceil(options.max_range / options.cell_size))),
         size_(2 * half_ + 1),
         per_metre_(static_cast<float>(1 / options.cell_size)) {}
@@ -33,7 +35,9 @@ class CellGrid {
     return std::max(std::abs(p.x()), std::abs(p.y())) * per_metre_ < static_cast<float>(half_);
   }
   [[nodiscard]] int cell_of(const Eigen::Vector3f& p) const {
-    return index(static_cast<int>(column(p.x()) + 0.5F), static_cast<int>(column(p.y()) + 0.5F));
+    const float first_edge = static_cast<float>(half_) + 0.5F;
+    return index(static_cast<int>(p.x() * per_metre_ + first_edge),
+                 static_cast<int>(p.y() * per_metre_ + first_edge));
   }
   /// Distance of a cell's centre from the origin, in cells.
   [[nodiscard]] double range_of(int cell) const {

@@ -162,7 +162,8 @@ std::vector<Detection> NetworkDetector::detect(const DetectorInput& input) {
   // From parts of the input to pixels of the picture.
   const cv::Size fitted = fitted_size(picture.size());
   const auto to_picture = [](double part, int input_px, int fitted_px, int picture_px) {
-    const double px = (part * input_px - (input_px - fitted_px) / 2) * picture_px / fitted_px;
+    const int padding = (input_px - fitted_px) / 2;
+    const double px = (part * input_px - padding) * picture_px / fitted_px;
     return std::clamp(px, 0., static_cast<double>(picture_px));
   };
   const auto u = [&](double x) {

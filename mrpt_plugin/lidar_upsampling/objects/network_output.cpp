@@ -70,8 +70,10 @@ std::vector<NetworkBox> decode_anchor_free(const cv::Mat& output, const std::vec
     if (best.id < 0) continue;
     const double score = std::pow(candidate[0], 0.6) * std::pow(best.score, 0.4);
     if (!(score >= min_score)) continue;
-    const double cx = (cell % width + std::tanh(candidate[plane])) / width;
-    const double cy = (cell / width + std::tanh(candidate[2 * plane])) / height;
+    const int row = cell / width;
+    const int column = cell % width;
+    const double cx = (column + std::tanh(candidate[plane])) / width;
+    const double cy = (row + std::tanh(candidate[2 * plane])) / height;
     boxes.push_back(
         {box_around(cx, cy, sigmoid(candidate[3 * plane]), sigmoid(candidate[4 * plane])), best.id,
          score});

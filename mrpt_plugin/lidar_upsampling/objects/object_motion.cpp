@@ -2,35 +2,92 @@
 // Copyright (c) 2026, the lidar_upsampling authors
 #include "lidar_upsampling/objects/object_motion.h"
 
+#include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <cmath>
+
+#include "lidar_upsampling/se3.h"
+#include "lidar_upsampling/vision/projection.h"
+#include "lidar_upsampling/vision/refine_pose.h"
 
 namespace lidar_upsampling {
 namespace {
 
-Eigen::Vector3d centroid_of(const std::vector<Correspondence>& correspondences) {
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  for (const Correspondence& pair : correspondences) sum += pair.point_in_source;
-  return sum / std::max<double>(1., static_cast<double>(correspondences.size()));
-}
+using Correspondences = std::vector<Correspondence>;
 
-// Robust reprojection cost in units of the noise: what a Cauchy error of sigma_px makes of it.
-double cost(const std::vector<Correspondence>& correspondences, const CameraModel& camera,
-            const Pose& T_camera_source, double sigma_px) {
+// Twice the negative log-likelihood of the reprojection errors, Cauchy with scale sigma_px.
+double picture_cost(const Correspondences& correspondences, const CameraModel& camera,
+                    const Pose& T_camera_source, double sigma_px) {
   double sum = 0;
   for (const double error : reprojection_errors(correspondences, camera, T_camera_source))
-    sum += std::log1p(error * error / (sigma_px * sigma_px));
+    sum += 2 * std::log1p(std::min(error * error / (sigma_px * sigma_px), 1e6));
   return sum;
 }
 
-// Twice the log-likelihood ratio of the free motion over none, against the chi-square that six more
-// parameters reach by chance.
-bool is_stationary(const std::vector<Correspondence>& correspondences, const MotionQuery& query,
-                   const AbsolutePose& free, const Pose& T_camera_lidar_ego,
-                   const ObjectMotionOptions& options) {
-  const double sigma = std::max(options.pose.sigma_px, free.rmse_px);
-  const double gain = cost(correspondences, query.camera, T_camera_lidar_ego, sigma) -
-                      cost(correspondences, query.camera, free.T_camera_source, sigma);
-  return gain / options.points_per_observation < options.static_significance;
+// Root mean squared distance on the picture between two hypotheses.
+double distance_px(const Correspondences& correspondences, const CameraModel& camera, const Pose& a,
+                   const Pose& b) {
+  Correspondences seen_from_a;
+  for (const Correspondence& pair : correspondences)
+    if (const auto pixel = project(camera, a * pair.point_in_source, -1e4))
+      seen_from_a.push_back({pair.point_in_source, *pixel});
+  double sum = 0;
+  for (const double error : reprojection_errors(seen_from_a, camera, b)) sum += error * error;
+  return std::sqrt(sum / std::max<double>(1., static_cast<double>(seen_from_a.size())));
+}
+
+// How much likelier the moving hypothesis is than the parked one, as a likelihood ratio statistic.
+double evidence_of_motion(const Correspondences& correspondences, const MotionQuery& query,
+                          const AbsolutePose& moving, const Pose& T_parked,
+                          const std::optional<PosePrior>& prior,
+                          const ObjectMotionOptions& options) {
+  double evidence = 0;
+  if (distance_px(correspondences, query.camera, T_parked, moving.T_camera_source) >
+      options.static_tolerance_px) {
+    const double sigma = std::max(0.5 * options.pose.sigma_px, moving.rmse_px);
+    evidence += (picture_cost(correspondences, query.camera, T_parked, sigma) -
+                 picture_cost(correspondences, query.camera, moving.T_camera_source, sigma)) /
+                options.points_per_observation;
+  }
+  if (prior && query.is_known)
+    evidence += prior_cost(*prior, T_parked) - prior_cost(*prior, moving.T_camera_source);
+  return evidence;
+}
+
+// One standard deviation of the centroid, the worst direction.
+double centroid_sigma(const AbsolutePose& pose, const Eigen::Vector3d& centroid,
+                      double points_per_observation) {
+  Eigen::Matrix<double, 3, 6> jacobian;
+  jacobian << -skew(pose.T_camera_source * centroid), Eigen::Matrix3d::Identity();
+  const Eigen::Matrix3d covariance = jacobian * pose.covariance * jacobian.transpose();
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(covariance, Eigen::EigenvaluesOnly);
+  return std::sqrt(points_per_observation * std::max(0., axes.eigenvalues()[2]));
+}
+
+// Without the picture: on by the motion measured before, where there is one, else parked.
+void fall_back(ObjectMotion& motion, const MotionQuery& query, MotionStatus status,
+               const ObjectMotionOptions& options) {
+  motion.status = status;
+  if (!options.prior.enabled || !query.is_known) return;
+  const Pose& T_mov = query.prior.T_mov;
+  const double step = (T_mov * query.centroid_lidar_k - query.centroid_lidar_k).norm();
+  constexpr double kClear = 2;  // standard deviations
+  if (options.static_test && step < kClear * query.prior.position_sigma_m) return;
+  set_motion(motion, query.T_lidar_t_lidar_k * T_mov, query);
+  motion.position_sigma_m = query.prior.position_sigma_m;
+  motion.status = MotionStatus::predicted;
+}
+
+std::optional<AbsolutePose> solve_pose(const Correspondences& correspondences,
+                                       const MotionQuery& query,
+                                       const std::optional<PosePrior>& prior,
+                                       const ObjectMotionOptions& options) {
+  const Pose T_expected = query.T_camera_lidar * query.T_lidar_t_lidar_k * query.prior.T_mov;
+  auto pose = estimate_absolute_pose(correspondences, query.camera, options.pose, T_expected);
+  if (!pose || !prior) return pose;
+  auto best = refine_absolute_pose(correspondences, query.camera, pose->T_camera_source,
+                                   options.pose, prior);
+  return best ? best : pose;
 }
 
 }  // namespace
@@ -41,40 +98,43 @@ void set_motion(ObjectMotion& motion, const Pose& T_lidar_t_lidar_k, const Motio
   if (query.dt <= 0) return;
   motion.velocity_lidar_k =
       (motion.T_mov * motion.centroid_lidar_k - motion.centroid_lidar_k) / query.dt;
-  motion.yaw_rate =
-      std::atan2(motion.T_mov.linear()(1, 0), motion.T_mov.linear()(0, 0)) / query.dt;
+  motion.yaw_rate = std::atan2(motion.T_mov.linear()(1, 0), motion.T_mov.linear()(0, 0)) / query.dt;
 }
 
-ObjectMotion estimate_object_motion(const std::vector<Correspondence>& correspondences,
+ObjectMotion estimate_object_motion(const Correspondences& correspondences,
                                     const MotionQuery& query, const ObjectMotionOptions& options) {
   ObjectMotion motion;
   motion.num_tracked = static_cast<int>(correspondences.size());
-  motion.centroid_lidar_k = centroid_of(correspondences);
+  motion.centroid_lidar_k = query.centroid_lidar_k;
   set_motion(motion, query.T_lidar_t_lidar_k, query);
   if (motion.num_tracked < options.min_points) {
-    motion.status = MotionStatus::too_few_points;
+    fall_back(motion, query, MotionStatus::too_few_points, options);
     return motion;
   }
 
-  const Pose T_camera_t_lidar_k_ego = query.T_camera_lidar * query.T_lidar_t_lidar_k;
-  const Pose T_predicted = T_camera_t_lidar_k_ego * query.T_mov_predicted;
-  const auto pose =
-      estimate_absolute_pose(correspondences, query.camera, options.pose, T_predicted);
-  motion.status = MotionStatus::no_consensus;
-  if (!pose) return motion;
-  motion.num_inliers = pose->num_inliers;
-  motion.rmse_px = pose->rmse_px;
-
-  if (options.static_test &&
-      is_stationary(correspondences, query, *pose, T_camera_t_lidar_k_ego, options)) {
-    motion.status = MotionStatus::stationary;
-    return motion;
-  }
+  const Pose T_parked = query.T_camera_lidar * query.T_lidar_t_lidar_k;
+  std::optional<PosePrior> prior;
+  if (options.prior.enabled) prior = pose_prior(query.prior, T_parked, query.centroid_lidar_k);
+  const auto pose = solve_pose(correspondences, query, prior, options);
   ObjectMotion moved = motion;
-  set_motion(moved, query.T_camera_lidar.inverse() * pose->T_camera_source, query);
-  if (moved.velocity_lidar_k.norm() > options.max_speed) return motion;
-  moved.status = MotionStatus::moving;
-  return moved;
+  if (pose) set_motion(moved, query.T_camera_lidar.inverse() * pose->T_camera_source, query);
+  if (!pose || moved.velocity_lidar_k.norm() > options.max_speed) {
+    fall_back(motion, query, MotionStatus::no_consensus, options);
+    return motion;
+  }
+
+  ObjectMotion& result = moved;
+  result.status = MotionStatus::moving;
+  if (options.static_test && evidence_of_motion(correspondences, query, *pose, T_parked, prior,
+                                                options) < options.static_significance) {
+    result = motion;
+    result.status = MotionStatus::stationary;
+  }
+  result.num_inliers = pose->num_inliers;
+  result.rmse_px = pose->rmse_px;
+  result.position_sigma_m =
+      centroid_sigma(*pose, query.centroid_lidar_k, options.points_per_observation);
+  return result;
 }
 
 }  // namespace lidar_upsampling

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "lidar_upsampling/objects/known_motion.h"
 #include "lidar_upsampling/types.h"
 #include "lidar_upsampling/vision/absolute_pose.h"
 
@@ -13,11 +14,14 @@ namespace lidar_upsampling {
 
 struct ObjectMotionOptions {
   AbsolutePoseOptions pose;  ///< MLESAC and its refinement
-  int min_points = 12;       ///< tracked points; fewer: the ego-motion is used
+  MotionPriorOptions prior;  ///< off: the paper
+  int min_points = 12;       ///< tracked points; fewer: the picture is not asked
   double max_speed = 70;     ///< m/s over ground; faster: no consensus
-  /// Whether an object that the picture cannot tell from a parked one stays parked; off: the paper.
+  /// Whether an object that cannot be told from a parked one stays parked; off: the paper.
   bool static_test = true;
   double static_significance = 16.8;  ///< chi-square of 6 degrees of freedom, 1 % by default
+  double static_tolerance_px =
+      0.35;  ///< what ego-motion and calibration may be wrong on the picture
   double points_per_observation = 4;  ///< neighbouring tracks err alike: so many count as one
 };
 
@@ -26,14 +30,17 @@ struct MotionQuery {
   CameraModel camera;
   Pose T_camera_lidar = Pose::Identity();
   Pose T_lidar_t_lidar_k = Pose::Identity();  ///< ego-motion
-  Pose T_mov_predicted = Pose::Identity();    ///< object motion to expect, in the lidar frame at k
-  double dt = 0;                              ///< s, from the key scan to the image
+  Eigen::Vector3d centroid_lidar_k = Eigen::Vector3d::Zero();
+  MotionPrior prior;      ///< object motion to expect
+  bool is_known = false;  ///< whether the prior was measured, so that it serves without the picture
+  double dt = 0;          ///< s, from the key scan to the image
 };
 
 /// @brief One object's motion from 3D-2D correspondences of its points (paper, section "Estimate
 /// Virtual Camera Pose"): P3P in MLESAC gives T_camera_t_lidar_k, which holds ego- and object
-/// motion (eq. 2); T_mov = T_lidar_k_camera_t(ego) * T_camera_t_lidar_k (eq. 3). Then the parked
-/// hypothesis: the reprojection cost of the ego-motion alone against the free motion's.
+/// motion (eq. 2); T_mov = T_lidar_k_camera_t(ego) * T_camera_t_lidar_k (eq. 3). Beyond the paper,
+/// each to be switched off: the motion known before weighs in as a Gaussian prior, and the parked
+/// hypothesis wins unless picture and prior together speak against it (likelihood ratio).
 /// @param correspondences points in the lidar frame at k, pixels on the image at t.
 /// @return motions, status and evidence; ids, box and points are the caller's to fill.
 [[nodiscard]] ObjectMotion estimate_object_motion(

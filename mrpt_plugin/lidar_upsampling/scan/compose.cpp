@@ -10,7 +10,8 @@ namespace {
 constexpr int kStatic = -1;
 
 // For each point of the key scan, the object that moves it: its position in `objects`, or kStatic.
-std::vector<int> owners_of_points(std::size_t num_points, const std::vector<ObjectMotion>& objects) {
+std::vector<int> owners_of_points(std::size_t num_points,
+                                  const std::vector<ObjectMotion>& objects) {
   std::vector<int> owner(num_points, kStatic);
   for (int i = 0; i < static_cast<int>(objects.size()); ++i)
     for (const int point : objects[i].points) {
@@ -64,7 +65,7 @@ VirtualScan compose_virtual_scan(const LidarScan& key_scan, ScanMotion motion,
     keep = seen_by_any(motion.cameras, key_scan.T_vehicle_lidar, moved);
   if (options.objects == MovingObjects::drop)
     for (std::size_t i = 0; i < keep.size(); ++i)
-      if (owner[i] != kStatic && motion.objects[owner[i]].status == MotionStatus::moving) keep[i] = 0;
+      if (owner[i] != kStatic && moves(motion.objects[owner[i]])) keep[i] = 0;
 
   VirtualScan result;
   for (int i = 0; i < static_cast<int>(keep.size()); ++i)

@@ -29,9 +29,10 @@ struct ScanMotion {
   std::vector<Camera> cameras;  ///< those that saw the scene at `stamp`
 };
 
-/// @brief The key scan as it would be at the image's instant: static points moved by T_S (paper, eq.
-/// 4), each object's by its own T_D (eq. 5). A point that two objects claim (seen by two cameras) goes
-/// to the one with more inliers. Intensity, ring, column and time stay with their points.
+/// @brief The key scan as it would be at the image's instant: static points moved by T_S (paper,
+/// eq. 4), each object's by its own T_D (eq. 5). A point that two objects claim (seen by two
+/// cameras) goes to the one with more inliers. Intensity, ring, column and time stay with their
+/// points.
 /// @param output_label the sensor label of the virtual scan.
 [[nodiscard]] VirtualScan compose_virtual_scan(const LidarScan& key_scan, ScanMotion motion,
                                                const std::string& output_label,

@@ -10,9 +10,8 @@
 #include <opencv2/calib3d.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "simulator/light.h"
+#include "simulator/fragment.h"
 #include "simulator/noise.h"
-#include "simulator/texture.h"
 
 namespace lidar_upsampling::sim {
 
@@ -24,24 +23,8 @@ using Eigen::Vector3f;
 
 constexpr int kTile = 16, kSubpixels = 3;
 
-/// A ray and how it changes over the filter (a pixel or a part of one).
-struct PixelRay {
-  Vector3d direction, du, dv;
-};
-
-struct Fragment {
-  Vector3f color = Vector3f::Zero();
-  std::uint32_t surface = 0;  ///< differs between any two surfaces, and between sun and shadow
-  int object = -1;
-};
-
-struct Instant {
-  const World& world;
+struct Instant : CameraView {
   const CameraRenderer& renderer;
-  const Scene& scene;
-  Pose T_world_camera;
-  View view;
-  SunShadows shadows;
 
   [[nodiscard]] Vector3d in_world(const Vector2d& ray) const {
     return T_world_camera.linear() * ray.homogeneous();
@@ -59,47 +42,6 @@ PixelRay ray_at(const Instant& now, int u, int v, const Vector2d& at, int n) {
   const Eigen::Matrix3d& R = now.T_world_camera.linear();
   return {direction / norm, scale * (R.leftCols<2>() * (b - a)),
           scale * (R.leftCols<2>() * (c - a))};
-}
-
-Vector3f filtered_albedo(const Instant& now, const RayHit& hit, const PixelRay& ray) {
-  const Object& object = now.world.objects[hit.object];
-  const Part& part = object.parts[hit.part];
-  const Pose& T_world_object = now.scene.T_world_object[hit.object];
-  const Eigen::Matrix3d R = T_world_object.linear().transpose();
-  const Vector3d at = R * (now.T_world_camera.translation() + hit.range * ray.direction -
-                           T_world_object.translation());
-  const double slope = std::min(-0.02, hit.normal.dot(ray.direction));
-  const auto on_surface = [&](const Vector3d& change) {
-    return Vector3d(R * (hit.range * (change - ray.direction * (hit.normal.dot(change) / slope))));
-  };
-  Vector3d major = on_surface(ray.du), minor = on_surface(ray.dv);
-  if (major.squaredNorm() < minor.squaredNorm()) std::swap(major, minor);
-  // A long filter (the road far ahead) is several shorter ones side by side.
-  const double ratio = major.norm() / minor.norm();
-  const int num_taps = std::clamp(static_cast<int>(ratio), 1, 4);
-  major /= num_taps;
-  SurfacePoint point;
-  point.normal = R * hit.normal;
-  point.size = std::max(major.norm(), minor.norm());
-  point.extent = (major.array().square() + minor.array().square()).sqrt().max(1e-4);
-  Vector3f sum = Vector3f::Zero();
-  for (int i = 0; i < num_taps; ++i) {
-    point.position = at + (i - 0.5 * (num_taps - 1)) * major;
-    sum += surface_at(now.world.street, object, part, point).albedo;
-  }
-  return sum / static_cast<float>(num_taps);
-}
-
-Fragment trace(const Instant& now, const PixelRay& ray, const std::vector<int>& candidates) {
-  const RayHit hit = now.view.cast(ray.direction, candidates);
-  if (!hit.any()) return {sky(ray.direction, ray.dv.norm()), 0, -1};
-  const Vector3d point = now.T_world_camera.translation() + hit.range * ray.direction;
-  const bool lit = now.shadows.lit(point, hit.normal);
-  Fragment fragment;
-  fragment.object = hit.object;
-  fragment.surface = hash(hash(hit.object, hit.part), 2 * (hit.face + 1) + (lit ? 1 : 0)) | 1U;
-  fragment.color = shaded(filtered_albedo(now, hit, ray), hit.normal, lit, hit.range);
-  return fragment;
 }
 
 RayBundle bundle_of(const Instant& now, const cv::Rect& tile) {
@@ -224,12 +166,9 @@ RenderedImage CameraRenderer::render(const World& world, Stamp stamp, std::uint3
   const double t = time_of(stamp);
   const Scene scene = scene_at(world, t);
   const Pose T_world_camera = world.T_world_vehicle(t) * spec_.camera.T_vehicle_camera;
-  const Instant now{world,
-                    *this,
-                    scene,
-                    T_world_camera,
-                    View(scene, T_world_camera.translation()),
-                    SunShadows(scene)};
+  const Instant now{
+      {world, scene, T_world_camera, View(scene, T_world_camera.translation()), SunShadows(scene)},
+      *this};
   const CameraModel& model = spec_.camera.model;
   Canvas canvas{model.width,
                 model.height,
@@ -249,7 +188,8 @@ RenderedImage CameraRenderer::render(const World& world, Stamp stamp, std::uint3
   out.image.bgr.create(model.height, model.width, CV_8UC3);
   out.object.create(model.height, model.width, CV_32S);
   const auto ticks = static_cast<std::uint32_t>((stamp - start_stamp()).count());
-  const std::uint32_t own = hash(hash(seed, ticks), static_cast<std::uint32_t>(model.width));
+  std::uint32_t own = hash(seed, ticks);
+  for (const char letter : spec_.camera.label) own = hash(own, static_cast<unsigned char>(letter));
   const auto gain = static_cast<float>(gain_at(spec_, t)), noise = static_cast<float>(spec_.noise);
   tbb::parallel_for(0, model.height, [&](int v) { develop_row(canvas, v, gain, noise, own, out); });
   cv::cvtColor(out.image.bgr, out.image.gray, cv::COLOR_BGR2GRAY);

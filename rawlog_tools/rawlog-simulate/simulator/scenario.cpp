@@ -224,31 +224,4 @@ Scenario load_scenario(const std::string& path) {
   return scenario_from_config(mrpt::config::CConfigFile(path));
 }
 
-std::vector<double> hdl64_elevations() {
-  std::vector<double> elevations;
-  for (int i = 0; i < 32; ++i) elevations.push_back((-24.33 + 0.5 * i) * kRadian);
-  for (int i = 0; i < 32; ++i) elevations.push_back((-8.33 + i / 3.) * kRadian);
-  return elevations;
-}
-
-Stamp start_stamp() {
-  // MRPT's ticks count from 1601, UNIX time from 1970.
-  constexpr std::int64_t unix_epoch = 116444736000000000, seconds_2026 = 1767225600;
-  return Stamp(mrpt::Clock::duration(unix_epoch + seconds_2026 * 10000000));
-}
-
-Stamp stamp_of(int index, double rate_hz, double phase_s) {
-  return shifted(start_stamp(), phase_s + index / rate_hz);
-}
-
-std::vector<Stamp> stamps_of(double rate_hz, double phase_s, double duration_s) {
-  std::vector<Stamp> stamps;
-  const Stamp end = shifted(start_stamp(), duration_s);
-  for (int i = 0;; ++i) {
-    const Stamp stamp = stamp_of(i, rate_hz, phase_s);
-    if (stamp > end) return stamps;
-    stamps.push_back(stamp);
-  }
-}
-
 }  // namespace lidar_upsampling::sim

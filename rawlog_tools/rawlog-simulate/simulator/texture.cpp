@@ -110,7 +110,7 @@ float roughness(Material material) {
     case Material::cloth:
       return 0.35F;
     default:
-      return 0.28F;
+      return 0.3F;
   }
 }
 
@@ -119,7 +119,7 @@ NoiseSpectrum spectrum(Material material) {
     case Material::foliage:
       return {0.5, 6, 1.1};
     case Material::facade:
-      return {2.5, 8, 0.75};
+      return {1.2, 7, 0.9};
     case Material::bark:
       return {0.3, 5, 0.9};
     default:
@@ -175,7 +175,7 @@ Surface ground_surface(const StreetSpec& street, const Part& part, const Surface
     surface.albedo *= 1 + 0.16F * noise;
     return surface;
   }
-  surface.albedo *= 1 + 0.3F * noise;
+  surface.albedo *= 1 + 0.42F * noise;
   // Not within the crossing (the difference to a NaN is never less than anything).
   const bool crossing = std::abs(x - street.crossing_x) < kCrossingHalfWidth + 4.2;
   const double edge = street.lanes_per_direction * street.lane_width;

@@ -158,7 +158,7 @@ Surface vehicle_surface(const Object& object, const Part& part, const SurfacePoi
   const double grime = std::max(0., 1 - (point.position.z() - shape.clearance) / 0.5);
   put(surface, Vector3f(0.16F, 0.13F, 0.10F),
       static_cast<float>(0.45 * grime) * std::max(0.F, 0.5F + 0.7F * noise));
-  surface.albedo *= std::max(0.1F, 1 + 0.3F * noise);
+  surface.albedo *= std::max(0.1F, 1 + 0.45F * noise);
   surface.albedo += Vector3f::Constant(0.012F * std::max(-1.F, noise) + 0.012F);
   return surface;
 }

@@ -38,8 +38,9 @@ World build_world(const Scenario& scenario) {
   world.street = scenario.street;
   world.ego = scenario.ego;
   double x_from = scenario.ego.motion.x, x_to = x_from;
-  for (double t = 0; t <= scenario.duration_s; t += 0.5) {
-    const double x = state_at(scenario.ego.motion, t).x;
+  const int half_seconds = static_cast<int>(2 * scenario.duration_s);
+  for (int i = 0; i <= half_seconds; ++i) {
+    const double x = state_at(scenario.ego.motion, 0.5 * i).x;
     x_from = std::min(x_from, x);
     x_to = std::max(x_to, x);
   }

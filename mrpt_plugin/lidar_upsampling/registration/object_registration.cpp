@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the lidar_upsampling authors
-#include "lidar_upsampling/metrics/object_registration.h"
+#include "lidar_upsampling/registration/object_registration.h"
 
 #include <Eigen/Cholesky>
 #include <algorithm>
@@ -8,7 +8,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "lidar_upsampling/ego/se3.h"
+#include "lidar_upsampling/se3.h"
 
 namespace lidar_upsampling {
 

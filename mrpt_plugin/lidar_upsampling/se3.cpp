@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the lidar_upsampling authors
-#include "lidar_upsampling/ego/se3.h"
+#include "lidar_upsampling/se3.h"
 
 #include <cmath>
 

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "lidar_upsampling/ego/surface.h"
+#include "lidar_upsampling/registration/surface.h"
 #include "lidar_upsampling/types.h"
 
 namespace lidar_upsampling {

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "lidar_upsampling/ego/point_index.h"
+#include "lidar_upsampling/registration/point_index.h"
 
 namespace lidar_upsampling {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the lidar_upsampling authors
-#include "lidar_upsampling/ego/scan_registration.h"
+#include "lidar_upsampling/registration/scan_registration.h"
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
@@ -11,7 +11,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "lidar_upsampling/ego/surface.h"
+#include "lidar_upsampling/registration/surface.h"
 
 namespace lidar_upsampling {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the lidar_upsampling authors
-#include "lidar_upsampling/ego/surface.h"
+#include "lidar_upsampling/registration/surface.h"
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the lidar_upsampling authors
-#include "lidar_upsampling/ego/point_index.h"
+#include "lidar_upsampling/registration/point_index.h"
 
 #include <nanoflann.hpp>
 

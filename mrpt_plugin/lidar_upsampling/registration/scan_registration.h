@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "lidar_upsampling/ego/se3.h"
+#include "lidar_upsampling/se3.h"
 #include "lidar_upsampling/types.h"
 
 namespace lidar_upsampling {
