@@ -197,15 +197,29 @@ EgoStep LidarUpsampler::ego_step(Stamp instant) const {
   return {exp_se3(Twist(lidar_rate_ * dt)), true};
 }
 
+// How far a constant velocity may lead astray: far if it is only hoped for, little if it was measured
+// between the last two scans.
+CameraEgoOptions LidarUpsampler::camera_ego_options(double dt) const {
+  constexpr double kForward = 2.5, kSideways = 1, kTurn = 0.5;  // m/s^2, m/s^2, rad/s^2
+  CameraEgoOptions options = config_.camera_ego;
+  if (!rate_is_measured_) return options;
+  const double reach = 0.5 * (scan_period_s_ + dt) * dt;
+  options.forward_sigma_m = 0.01 + kForward * reach;
+  options.sideways_sigma_m = 0.01 + kSideways * reach;
+  options.yaw_sigma_rad = 0.002 + kTurn * reach;
+  return options;
+}
+
 EgoStep LidarUpsampler::camera_step(const CameraView& view, const Picture& picture,
                                     const EgoStep& predicted) {
-  const Pose T_camera_lidar = view.camera.T_vehicle_camera.inverse() * key_->scan.T_vehicle_lidar;
-  const auto step =
-      estimate_camera_ego(correspondences_of(view.points, kStaticOwner), view.camera.model,
-                          T_camera_lidar, config_.camera_ego, predicted.T_to_from);
-  if (!step) return predicted;
+  const Pose T_camera_lidar =
+      view.camera.T_vehicle_camera.inverse() * key_->scan.T_vehicle_lidar;
   const double dt = seconds_between(key_->scan.stamp, picture.instant);
-  lidar_rate_ = log_se3(step->T_lidar_t_lidar_k) / dt;
+  const auto step = estimate_camera_ego(correspondences_of(view.points, kStaticOwner),
+                                        view.camera.model, T_camera_lidar,
+                                        camera_ego_options(dt), predicted.T_to_from);
+  if (!step) return predicted;
+  if (!rate_is_measured_) lidar_rate_ = log_se3(step->T_lidar_t_lidar_k) / dt;
   return {step->T_lidar_t_lidar_k, false};
 }
 
@@ -215,6 +229,7 @@ Pose LidarUpsampler::scan_step(const LidarScan& next) {
   const Stopwatch watch(timing_, "scan registration");
   const auto registration = register_scans(key_->scan.points, next.points, predicted.T_to_from,
                                            config_.scan_registration);
+  rate_is_measured_ = registration.has_value();
   if (!registration) return predicted.T_to_from;
   lidar_rate_ =
       log_se3(registration->T_target_source) / seconds_between(key_->scan.stamp, next.stamp);

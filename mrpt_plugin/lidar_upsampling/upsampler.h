@@ -66,6 +66,7 @@ class LidarUpsampler {
   void start(CameraView& view, const std::shared_ptr<const Picture>& anchor);
   void process(CameraView& view, const Picture& picture);
   [[nodiscard]] EgoStep ego_step(Stamp instant) const;
+  [[nodiscard]] CameraEgoOptions camera_ego_options(double dt) const;
   [[nodiscard]] EgoStep camera_step(const CameraView& view, const Picture& picture,
                                     const EgoStep& predicted);
   [[nodiscard]] Pose scan_step(const LidarScan& next);
@@ -78,6 +79,7 @@ class LidarUpsampler {
   std::map<std::string, std::unique_ptr<CameraView>> views_;
   std::vector<ImageResult> group_;            ///< of the instant under way
   std::map<int, KnownMotion> known_motions_;  ///< by track id
+  bool rate_is_measured_ = false;               ///< whether `lidar_rate_` is that between the last scans
   Twist lidar_rate_ = Twist::Zero();          ///< of the last ego-motion, per second
   std::vector<StageTime> timing_;             ///< since the last virtual scan
   std::vector<Stamp> expected_scans_;

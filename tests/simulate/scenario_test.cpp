@@ -79,6 +79,42 @@ TEST(Scenario, every_third_image_has_the_very_stamp_of_a_scan) {
   EXPECT_EQ((images[1] - images[0]).count(), 333333);
 }
 
+// Whether a corner or the middle of a side of `a` lies within `b`, seen from above.
+bool overlap(const World& world, int a, int b, double t) {
+  const VehicleShape &of_a = world.objects[a].shape, &of_b = world.objects[b].shape;
+  const Pose T_b_a = world.T_world_object(b, t).inverse() * world.T_world_object(a, t);
+  for (const double x : {-0.5, 0., 0.5}) {
+    for (const double y : {-0.5, 0., 0.5}) {
+      const Eigen::Vector3d p = T_b_a * Eigen::Vector3d(x * of_a.length, y * of_a.width, 0);
+      if (std::abs(p.x()) < 0.5 * of_b.length && std::abs(p.y()) < 0.5 * of_b.width) return true;
+    }
+  }
+  return false;
+}
+
+TEST(Scenario, nobody_drives_through_anybody_in_those_that_are_shipped) {
+  for (const char* const name : {"demo.ini", "small.ini"}) {
+    const Scenario scenario = load_scenario(std::string(SCENARIO_FOLDER "/") + name);
+    World world = build_world(scenario);
+    Object ego = make_vehicle("car", 0);
+    ego.motion = scenario.ego.motion;
+    ego.id = static_cast<int>(world.objects.size());
+    world.objects.push_back(ego);
+    for (const Object& a : world.objects) {
+      if (!a.moves()) continue;
+      for (const Object& b : world.objects) {
+        if (a.id == b.id || b.class_name.empty()) continue;
+        for (int step = 0; step <= std::lround(scenario.duration_s * 10); ++step) {
+          ASSERT_FALSE(overlap(world, a.id, b.id, 0.1 * step) ||
+                       overlap(world, b.id, a.id, 0.1 * step))
+              << name << ": " << a.class_name << a.id << " and " << b.class_name << b.id << " at "
+              << 0.1 * step << " s";
+        }
+      }
+    }
+  }
+}
+
 TEST(Scenario, those_that_are_shipped_can_be_read) {
   for (const char* const name : {"demo.ini", "small.ini"}) {
     const Scenario scenario = load_scenario(std::string(SCENARIO_FOLDER "/") + name);

@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "lidar_upsampling/vision/refine_pose.h"
+#include "lidar_upsampling/vision/pose_likelihood.h"
 
 namespace lidar_upsampling {
 
@@ -55,12 +55,13 @@ std::optional<CameraEgo> estimate_camera_ego(const std::vector<Correspondence>& 
   }
   const auto free =
       estimate_absolute_pose(correspondences, model, options.pose, T_camera_lidar * guess);
-  if (!free) {
-    return std::nullopt;
+  std::vector<Pose> starts{T_camera_lidar * guess};
+  if (free) {
+    starts.push_back(free->T_camera_source);
   }
-  const auto refined =
-      refine_absolute_pose(correspondences, model, free->T_camera_source, options.pose,
-                           vehicle_prior(T_camera_lidar, guess, options));
+  const auto refined = refine_likeliest_pose(correspondences, model, starts, options.pose,
+                                             vehicle_prior(T_camera_lidar, guess, options),
+                                             options.points_per_observation);
   // With a prior the refinement asks for no number of inliers: we do.
   if (!refined || refined->num_inliers < options.min_correspondences / 2 ||
       refined->num_inliers <

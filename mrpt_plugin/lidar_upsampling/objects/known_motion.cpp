@@ -59,14 +59,6 @@ PosePrior pose_prior(const MotionPrior& prior, const Pose& T_camera_t_lidar_k_eg
   return result;
 }
 
-double prior_cost(const PosePrior& prior, const Pose& T_camera_t_lidar_k) {
-  const Pose step = T_camera_t_lidar_k * prior.T_mean.inverse();
-  const Eigen::AngleAxisd turn(step.linear());
-  Twist increment;
-  increment << turn.angle() * turn.axis(), step.translation();
-  return (prior.sqrt_information * increment).squaredNorm();
-}
-
 std::optional<KnownMotion> measure_between_scans(const ObjectScans& scans, Stamp stamp_k,
                                                  const Eigen::Matrix3d& R_rest_lidar_k) {
   ObjectRegistrationOptions options;

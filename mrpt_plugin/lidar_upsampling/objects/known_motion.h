@@ -50,9 +50,6 @@ struct MotionPrior {
 [[nodiscard]] PosePrior pose_prior(const MotionPrior& prior, const Pose& T_camera_t_lidar_k_ego,
                                    const Eigen::Vector3d& centroid);
 
-/// @brief Squared Mahalanobis distance of a pose from the prior.
-[[nodiscard]] double prior_cost(const PosePrior& prior, const Pose& T_camera_t_lidar_k);
-
 /// One object's points in two real scans.
 struct ObjectScans {
   std::vector<Eigen::Vector3f> before;  ///< lidar frame at the scan before

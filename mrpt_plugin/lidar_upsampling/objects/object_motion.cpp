@@ -8,21 +8,12 @@
 
 #include "lidar_upsampling/se3.h"
 #include "lidar_upsampling/vision/projection.h"
-#include "lidar_upsampling/vision/refine_pose.h"
+#include "lidar_upsampling/vision/pose_likelihood.h"
 
 namespace lidar_upsampling {
 namespace {
 
 using Correspondences = std::vector<Correspondence>;
-
-// Twice the negative log-likelihood of the reprojection errors, Cauchy with scale sigma_px.
-double picture_cost(const Correspondences& correspondences, const CameraModel& camera,
-                    const Pose& T_camera_source, double sigma_px) {
-  double sum = 0;
-  for (const double error : reprojection_errors(correspondences, camera, T_camera_source))
-    sum += 2 * std::log1p(std::min(error * error / (sigma_px * sigma_px), 1e6));
-  return sum;
-}
 
 // Root mean squared distance on the picture between two hypotheses.
 double distance_px(const Correspondences& correspondences, const CameraModel& camera, const Pose& a,
@@ -85,9 +76,10 @@ std::optional<AbsolutePose> solve_pose(const Correspondences& correspondences,
   const Pose T_expected = query.T_camera_lidar * query.T_lidar_t_lidar_k * query.prior.T_mov;
   auto pose = estimate_absolute_pose(correspondences, query.camera, options.pose, T_expected);
   if (!pose || !prior) return pose;
-  auto best = refine_absolute_pose(correspondences, query.camera, pose->T_camera_source,
-                                   options.pose, prior);
-  return best ? best : pose;
+  auto likeliest =
+      refine_likeliest_pose(correspondences, query.camera, {pose->T_camera_source, T_expected},
+                            options.pose, *prior, options.points_per_observation);
+  return likeliest ? likeliest : pose;
 }
 
 }  // namespace
