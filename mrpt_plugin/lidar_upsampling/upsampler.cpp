@@ -204,6 +204,8 @@ CameraEgoOptions LidarUpsampler::camera_ego_options(double dt) const {
   CameraEgoOptions options = config_.camera_ego;
   if (!rate_is_measured_) return options;
   const double reach = 0.5 * (scan_period_s_ + dt) * dt;
+  options.trust_guess = true;
+  options.pose.min_inlier_ratio = std::min(0.1, options.pose.min_inlier_ratio);
   options.forward_sigma_m = 0.01 + kForward * reach;
   options.sideways_sigma_m = 0.01 + kSideways * reach;
   options.yaw_sigma_rad = 0.002 + kTurn * reach;

@@ -53,10 +53,12 @@ std::optional<CameraEgo> estimate_camera_ego(const std::vector<Correspondence>& 
   if (static_cast<int>(correspondences.size()) < options.min_correspondences) {
     return std::nullopt;
   }
-  const auto free =
-      estimate_absolute_pose(correspondences, model, options.pose, T_camera_lidar * guess);
   std::vector<Pose> starts{T_camera_lidar * guess};
-  if (free) {
+  if (!options.trust_guess) {
+    const auto free = estimate_absolute_pose(correspondences, model, options.pose, starts.front());
+    if (!free) {
+      return std::nullopt;
+    }
     starts.push_back(free->T_camera_source);
   }
   const auto refined = refine_likeliest_pose(correspondences, model, starts, options.pose,
