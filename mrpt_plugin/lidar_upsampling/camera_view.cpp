@@ -299,7 +299,7 @@ std::vector<ObjectMotion> estimate_motions(CameraView& view, const Picture& pict
     Candidate& candidate = view.candidates[i];
     MotionQuery own = query;
     own.centroid_lidar_k = candidate.centroid;
-    own.is_known = candidate.known.has_value();
+    if (candidate.known) own.known_evidence = evidence_of_motion(*candidate.known);
     own.prior = expect_motion(candidate.known, key_scan.stamp, view.R_rest_lidar_k.transpose(),
                               candidate.centroid, query.dt, config.object_motion.prior);
     ObjectMotion& motion = motions[i];

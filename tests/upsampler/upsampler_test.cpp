@@ -45,7 +45,7 @@ TEST(LidarUpsampler, a_virtual_scan_comes_at_every_image_between_two_scans) {
 TEST(LidarUpsampler, points_are_where_the_true_motion_puts_them) {
   StreetRun street;
   LidarUpsampler upsampler{Config()};
-  expect_close_to_truth(street, street.run(upsampler), 0.02, 0.08);
+  expect_close_to_truth(street, street.run(upsampler), 0.02, 0.1);
 }
 
 TEST(LidarUpsampler, moving_cars_are_told_from_parked_ones) {
@@ -103,7 +103,7 @@ TEST(LidarUpsampler, lens_distortion_is_taken_into_account) {
       "[camera.CAM0]\ndistortion_model = plumb_bob\ndistortion = -0.28 0.09 0.001 -0.0005 -0.01 0 "
       "0 0\n");
   LidarUpsampler upsampler{Config()};
-  expect_close_to_truth(street, street.run(upsampler), 0.02, 0.08);
+  expect_close_to_truth(street, street.run(upsampler), 0.02, 0.1);
 }
 
 TEST(LidarUpsampler, two_cameras_make_one_virtual_scan_per_instant) {

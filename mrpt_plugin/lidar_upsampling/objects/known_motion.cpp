@@ -20,6 +20,11 @@ Eigen::Vector3d mean_of(const std::vector<Eigen::Vector3f>& points) {
 
 }  // namespace
 
+double evidence_of_motion(const KnownMotion& known) {
+  constexpr double kFinest = 0.1;  // m/s
+  return std::pow(known.velocity_at_rest.norm() / std::max(known.velocity_sigma, kFinest), 2);
+}
+
 MotionPrior expect_motion(const std::optional<KnownMotion>& known, Stamp key_stamp,
                           const Eigen::Matrix3d& R_lidar_k_rest, const Eigen::Vector3d& centroid,
                           double dt, const MotionPriorOptions& options) {
@@ -63,7 +68,8 @@ std::optional<KnownMotion> measure_between_scans(const ObjectScans& scans, Stamp
                                                  const Eigen::Matrix3d& R_rest_lidar_k) {
   ObjectRegistrationOptions options;
   options.min_points = 20;
-  options.max_points = 200;
+  options.max_points = 120;
+  options.max_iterations = 15;
   options.search_m = 0;
   if (static_cast<int>(scans.before.size()) < options.min_points ||
       static_cast<int>(scans.now.size()) < options.min_points || scans.dt <= 0)

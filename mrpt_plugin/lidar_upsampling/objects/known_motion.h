@@ -18,6 +18,10 @@ struct KnownMotion {
   double velocity_sigma = 0;                                   ///< m/s, per axis
 };
 
+/// @brief Of the object moving at all when it was measured: a chi-square, of two degrees of freedom if it
+/// did not.
+[[nodiscard]] double evidence_of_motion(const KnownMotion& known);
+
 struct MotionPriorOptions {
   bool enabled = true;
   double unknown_speed_sigma = 12;     ///< m/s, of an object seen for the first time

@@ -30,19 +30,15 @@ double distance_px(const Correspondences& correspondences, const CameraModel& ca
 // How much likelier the moving hypothesis is than the parked one, as a likelihood ratio statistic.
 double evidence_of_motion(const Correspondences& correspondences, const MotionQuery& query,
                           const AbsolutePose& moving, const Pose& T_parked,
-                          const std::optional<PosePrior>& prior,
                           const ObjectMotionOptions& options) {
-  double evidence = 0;
-  if (distance_px(correspondences, query.camera, T_parked, moving.T_camera_source) >
-      options.static_tolerance_px) {
-    const double sigma = std::max(0.5 * options.pose.sigma_px, moving.rmse_px);
-    evidence += (picture_cost(correspondences, query.camera, T_parked, sigma) -
-                 picture_cost(correspondences, query.camera, moving.T_camera_source, sigma)) /
-                options.points_per_observation;
-  }
-  if (prior && query.is_known)
-    evidence += prior_cost(*prior, T_parked) - prior_cost(*prior, moving.T_camera_source);
-  return evidence;
+  const double before = options.prior.enabled ? query.known_evidence : 0;
+  if (distance_px(correspondences, query.camera, T_parked, moving.T_camera_source) <=
+      options.static_tolerance_px)
+    return before;
+  const double sigma = std::max(0.5 * options.pose.sigma_px, moving.rmse_px);
+  return before + (picture_cost(correspondences, query.camera, T_parked, sigma) -
+                   picture_cost(correspondences, query.camera, moving.T_camera_source, sigma)) /
+                      options.points_per_observation;
 }
 
 // One standard deviation of the centroid, the worst direction.
@@ -55,16 +51,12 @@ double centroid_sigma(const AbsolutePose& pose, const Eigen::Vector3d& centroid,
   return std::sqrt(points_per_observation * std::max(0., axes.eigenvalues()[2]));
 }
 
-// Without the picture: on by the motion measured before, where there is one, else parked.
+// Without the picture: on by the motion measured before, if it is one, else parked.
 void fall_back(ObjectMotion& motion, const MotionQuery& query, MotionStatus status,
                const ObjectMotionOptions& options) {
   motion.status = status;
-  if (!options.prior.enabled || !query.is_known) return;
-  const Pose& T_mov = query.prior.T_mov;
-  const double step = (T_mov * query.centroid_lidar_k - query.centroid_lidar_k).norm();
-  constexpr double kClear = 2;  // standard deviations
-  if (options.static_test && step < kClear * query.prior.position_sigma_m) return;
-  set_motion(motion, query.T_lidar_t_lidar_k * T_mov, query);
+  if (!options.prior.enabled || query.known_evidence < options.static_significance) return;
+  set_motion(motion, query.T_lidar_t_lidar_k * query.prior.T_mov, query);
   motion.position_sigma_m = query.prior.position_sigma_m;
   motion.status = MotionStatus::predicted;
 }
@@ -117,8 +109,7 @@ ObjectMotion estimate_object_motion(const Correspondences& correspondences,
 
   ObjectMotion& result = moved;
   result.status = MotionStatus::moving;
-  if (options.static_test && evidence_of_motion(correspondences, query, *pose, T_parked, prior,
-                                                options) < options.static_significance) {
+  if (options.static_test && evidence_of_motion(correspondences, query, *pose, T_parked, options) < options.static_significance) {
     result = motion;
     result.status = MotionStatus::stationary;
   }

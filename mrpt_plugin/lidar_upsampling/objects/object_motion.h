@@ -31,8 +31,8 @@ struct MotionQuery {
   Pose T_camera_lidar = Pose::Identity();
   Pose T_lidar_t_lidar_k = Pose::Identity();  ///< ego-motion
   Eigen::Vector3d centroid_lidar_k = Eigen::Vector3d::Zero();
+  double known_evidence = 0;  ///< of motion between the last two scans, as a chi-square
   MotionPrior prior;      ///< object motion to expect
-  bool is_known = false;  ///< whether the prior was measured, so that it serves without the picture
   double dt = 0;          ///< s, from the key scan to the image
 };
 
