@@ -22,7 +22,7 @@ const cv::Scalar kText(235, 235, 235);
 
 cv::Scalar color_of_track(int track) {
   // The golden angle keeps neighbouring ids apart.
-  const cv::Mat3b hsv(1, 1, cv::Vec3b(static_cast<std::uint8_t>((track * 111) % 180), 200, 255));
+  const cv::Mat3b hsv(1, 1, cv::Vec3b(static_cast<std::uint8_t>((track * 67) % 180), 200, 255));
   cv::Mat3b bgr;
   cv::cvtColor(hsv, bgr, cv::COLOR_HSV2BGR);
   return {double(bgr(0)[0]), double(bgr(0)[1]), double(bgr(0)[2])};

@@ -3,6 +3,7 @@
 #include "lidar_upsampling/camera_view.h"
 
 #include <tbb/parallel_for.h>
+#include <tbb/parallel_invoke.h>
 
 #include <algorithm>
 #include <cmath>
@@ -243,7 +244,10 @@ void start_view(CameraView& view, std::shared_ptr<const Picture> anchor, const K
   const CameraModel& camera = view.camera.model;
   const Pose T_camera_lidar_a =
       T_camera_lidar_of(view.camera, scan.T_vehicle_lidar) * T_lidar_a_lidar_k;
-  const AnchoredScan anchored = anchor_scan(scan, camera, T_camera_lidar_a);
+  AnchoredScan anchored;
+  cv::Mat texture;
+  tbb::parallel_invoke([&] { anchored = anchor_scan(scan, camera, T_camera_lidar_a); },
+                       [&] { cv::cornerMinEigenVal(anchor->image.gray, texture, 5); });
   view.candidates = find_candidates(view, *anchor, key, T_camera_lidar_a, visible_points(anchored),
                                     known, detector, config);
   if (config.object_motion.prior.enabled) measure_motions(view.candidates, view.past, key);
@@ -257,8 +261,6 @@ void start_view(CameraView& view, std::shared_ptr<const Picture> anchor, const K
   view.anchor_dt = seconds_between(scan.stamp, anchor->instant);
   if (std::abs(view.anchor_dt) * 1e3 <= config.timing.pair_tolerance_ms) view.anchor_dt = 0;
 
-  cv::Mat texture;
-  cv::cornerMinEigenVal(anchor->image.gray, texture, 5);
   for (std::size_t i = 0; i < view.candidates.size(); ++i) {
     const Candidate& candidate = view.candidates[i];
     auto points =

@@ -14,7 +14,8 @@ constexpr int kCycles = 4;
 constexpr int kImagesPerScan = 3;
 constexpr std::uint32_t kSeed = 3;
 
-// Returns are missing as on a real street: no beam of the sky returns.
+// The scanner is as the simulator has it, with a few columns more: 120 thousand of its beams
+// return.
 constexpr const char* kDrive = R"(
 [scenario]
 duration_s = 0.4
@@ -107,9 +108,9 @@ const Scene& scene() {
   return instance;
 }
 
-Stream::Stream() { start(); }
+Feed::Feed() { start(); }
 
-void Stream::start() {
+void Feed::start() {
   upsampler_.emplace(Config{});
   const Cycle& first = scene().cycles.front();
   upsampler_->insert_scan(first.scan);
@@ -117,7 +118,7 @@ void Stream::start() {
   next_ = 1;
 }
 
-const Cycle& Stream::next() {
+const Cycle& Feed::next() {
   if (next_ == scene().cycles.size()) start();
   return scene().cycles[next_++];
 }

@@ -31,9 +31,9 @@ struct Scene {
 
 /// @brief An upsampler on that drive, without end: it starts anew after the last cycle. The first
 /// cycle is given to it beforehand, so that everything it learns from the scan before is there.
-class Stream {
+class Feed {
  public:
-  Stream();
+  Feed();
   /// To be used up before the next call.
   [[nodiscard]] const Cycle& next();
   [[nodiscard]] LidarUpsampler& upsampler() { return *upsampler_; }

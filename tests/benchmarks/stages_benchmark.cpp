@@ -59,12 +59,12 @@ std::vector<cv::Point2f> predicted(const Inputs& in, const std::vector<int>& cho
 
 void image_pyramid(benchmark::State& state) {
   const Inputs& in = inputs();
-  for (auto _ : state) benchmark::DoNotOptimize(ImagePyramid(in.key.gray));
+  while (state.KeepRunning()) benchmark::DoNotOptimize(ImagePyramid(in.key.gray));
 }
 
 void project_and_mark(benchmark::State& state) {
   const Inputs& in = inputs();
-  for (auto _ : state) {
+  while (state.KeepRunning()) {
     const auto projected = project_scan(in.camera, in.T_camera_lidar, in.scan.points);
     benchmark::DoNotOptimize(mark_occluded(projected));
     benchmark::DoNotOptimize(mark_depth_edges(projected));
@@ -75,7 +75,7 @@ void project_and_mark(benchmark::State& state) {
 
 void ground_and_clusters(benchmark::State& state) {
   const Inputs& in = inputs();
-  for (auto _ : state) benchmark::DoNotOptimize(segment_scan(in.scan));
+  while (state.KeepRunning()) benchmark::DoNotOptimize(segment_scan(in.scan));
   state.counters["points"] = static_cast<double>(in.scan.size());
   state.counters["clusters"] = static_cast<double>(in.segments.clusters.size());
 }
@@ -84,7 +84,7 @@ void cluster_detector(benchmark::State& state) {
   const Inputs& in = inputs();
   const auto detector = make_detector({});
   std::size_t found = 0;
-  for (auto _ : state)
+  while (state.KeepRunning())
     found = detector->detect({in.key, &in.scan, &in.segments, in.T_camera_lidar}).size();
   state.counters["objects"] = static_cast<double>(found);
 }
@@ -93,9 +93,9 @@ void scan_registration(benchmark::State& state) {
   const LidarScan& from = scene().cycles[0].scan;
   const LidarScan& to = scene().cycles[1].scan;
   const Pose T_truth = scene().T_lidar_t_lidar_k(from.stamp, to.stamp);
-  Pose T_guess = T_truth;  // half a metre per second off per scan, a hard brake's worth
+  Pose T_guess = T_truth;  // as if braking had not been foreseen
   T_guess.translation().x() += 0.05;
-  for (auto _ : state)
+  while (state.KeepRunning())
     if (!register_scans(from.points, to.points, T_guess)) state.SkipWithError("no registration");
   state.counters["points"] = static_cast<double>(from.size());
 }
@@ -104,10 +104,12 @@ void klt_1000_points(benchmark::State& state) {
   const Inputs& in = inputs();
   const std::vector<int> chosen = choose_spread(in.projected, in.texture, 1000, 8);
   std::vector<cv::Point2f> points;
+  points.reserve(chosen.size());
   for (const int i : chosen) points.emplace_back(in.projected[i].u, in.projected[i].v);
   const std::vector<cv::Point2f> guesses = predicted(in, chosen);
   KltResult result;
-  for (auto _ : state) result = track_points(in.key_pyramid, in.next_pyramid, points, guesses);
+  while (state.KeepRunning())
+    result = track_points(in.key_pyramid, in.next_pyramid, points, guesses);
   state.counters["points"] = static_cast<double>(points.size());
   state.counters["tracked"] =
       static_cast<double>(std::count(result.tracked.begin(), result.tracked.end(), 1));
@@ -132,7 +134,7 @@ void pose_100_points(benchmark::State& state) {
                                                      noise(random) + astray * share(random))});
   }
   std::optional<AbsolutePose> pose;
-  for (auto _ : state) pose = estimate_absolute_pose(pairs, in.camera, {}, T_before);
+  while (state.KeepRunning()) pose = estimate_absolute_pose(pairs, in.camera, {}, T_before);
   if (!pose) return state.SkipWithError("no consensus");
   state.counters["inliers"] = pose->num_inliers;
 }
@@ -147,7 +149,7 @@ void camera_ego(benchmark::State& state) {
   follow_points(tracks, in.key_pyramid, in.next_pyramid, predicted(in, chosen), {});
   const auto pairs = correspondences_of(tracks, kStaticOwner);
   bool found = true;
-  for (auto _ : state)
+  while (state.KeepRunning())
     found =
         estimate_camera_ego(pairs, in.camera, in.T_camera_lidar, {}, Pose::Identity()).has_value();
   if (!found) return state.SkipWithError("no consensus");
@@ -161,7 +163,7 @@ void compose_120k(benchmark::State& state) {
   upsampler.insert_image(in.key);
   const auto sample = upsampler.insert_image(in.next);
   if (!sample) return state.SkipWithError("no virtual scan");
-  for (auto _ : state) {
+  while (state.KeepRunning()) {
     ScanMotion motion;
     motion.stamp = in.next.stamp;
     motion.T_lidar_t_lidar_k = in.T_lidar_t_lidar_k;
@@ -178,7 +180,7 @@ void write_scan(benchmark::State& state) {
   const Inputs& in = inputs();
   const auto path = std::filesystem::temp_directory_path() / "lidar_upsampling_benchmark.rawlog";
   RawlogWriter writer(path.string(), true);
-  for (auto _ : state) writer.write(*observation_from_scan(in.scan, Carrier::automatic));
+  while (state.KeepRunning()) writer.write(*observation_from_scan(in.scan, Carrier::automatic));
   state.counters["points"] = static_cast<double>(in.scan.size());
 }
 

@@ -66,11 +66,11 @@ double run_cycle(LidarUpsampler& upsampler, const Cycle& cycle, Step timed, Summ
 }
 
 void time_step(benchmark::State& state, Step timed) {
-  Stream stream;
+  Feed feed;
   Summary summary;
-  for (auto _ : state) {
-    const Cycle& cycle = stream.next();
-    state.SetIterationTime(run_cycle(stream.upsampler(), cycle, timed, summary));
+  while (state.KeepRunning()) {
+    const Cycle& cycle = feed.next();
+    state.SetIterationTime(run_cycle(feed.upsampler(), cycle, timed, summary));
   }
   summary.report(state, timed == all_steps);
 }

@@ -135,7 +135,7 @@ TEST(BadInput, settings_that_cannot_be_read_are_named) {
   expect_refused(folder, {"window_px", "large"}, "--set klt.window_px=large");
   expect_refused(folder, {"carrier", "pigeon"}, "--set carrier=pigeon");
   expect_refused(folder, {"name=value"}, "--set carrier");
-  std::ofstream(folder / "bad.ini") << "[kl]\nwindow_px = 15\n";
+  expect_refused(folder, {"kl"}, "--set kl.window_px=15");
   const std::string command_line = std::string(RAWLOG_DENSIFY) + " --input " +
                                    folder / "in.rawlog" + " --output " + folder / "out.rawlog" +
                                    " --config ";

@@ -45,7 +45,7 @@ class IcpSlam : public testing::TestWithParam<std::string> {};
 TEST_P(IcpSlam, stock_icp_slam_maps_the_virtual_scans) {
   if (run("command -v icp-slam").status != 0) GTEST_SKIP() << "icp-slam is not installed";
   const TestFolder folder;
-  simulate(folder, GetParam());
+  simulate(folder, "[log]\nformat = " + GetParam() + "\n");
   densify(folder);
   const ToolResult result = run("cd " + folder.path().string() +
                                 " && icp-slam " CONFIG_FOLDER "/icp-slam.ini out.rawlog");
@@ -60,7 +60,8 @@ TEST_P(IcpSlam, stock_icp_slam_maps_the_virtual_scans) {
   EXPECT_GE(num_frames_with(map, "LIDAR_VIRTUAL"), 4);
 }
 
-INSTANTIATE_TEST_SUITE_P(Formats, IcpSlam, testing::Values("", "[log]\nformat = sensory_frames\n"));
+INSTANTIATE_TEST_SUITE_P(Formats, IcpSlam, testing::Values("observations", "sensory_frames"),
+                         [](const auto& test) { return test.param; });
 
 }  // namespace
 }  // namespace lidar_upsampling

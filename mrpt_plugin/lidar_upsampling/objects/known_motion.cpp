@@ -76,13 +76,14 @@ std::optional<KnownMotion> measure_between_scans(const ObjectScans& scans, Stamp
     return {};
   const Surface target = make_surface(scans.now);
   const Pose& T_ego = scans.T_lidar_k_lidar_before;
-  const ObjectRegistration registration =
-      register_object(scans.before, target, {T_ego, T_ego * scans.T_mov_guess}, options);
+  const Eigen::Vector3d centroid = T_ego * mean_of(scans.before);
+  const Pose T_by_centroids = Eigen::Translation3d(mean_of(scans.now) - centroid) * T_ego;
+  const ObjectRegistration registration = register_object(
+      scans.before, target, {T_ego, T_ego * scans.T_mov_guess, T_by_centroids}, options);
   if (registration.status != RegistrationStatus::reliable) return {};
 
   // Over ground, in the axes of the lidar frame at k.
   const Pose T_mov_k = registration.T_target_object * T_ego.inverse();
-  const Eigen::Vector3d centroid = T_ego * mean_of(scans.before);
   KnownMotion known;
   known.stamp = shifted(stamp_k, -0.5 * scans.dt);
   known.velocity_at_rest =

@@ -13,9 +13,11 @@
 namespace lidar_upsampling {
 
 struct ObjectMotionOptions {
+  ObjectMotionOptions() { pose.min_inliers = 15; }  // fewer agree by chance now and then
+
   AbsolutePoseOptions pose;  ///< MLESAC and its refinement
   MotionPriorOptions prior;  ///< off: the paper
-  int min_points = 12;       ///< tracked points; fewer: the picture is not asked
+  int min_points = 20;       ///< tracked points; fewer: the picture is not asked
   double max_speed = 70;     ///< m/s over ground; faster: no consensus
   /// Whether an object that cannot be told from a parked one stays parked; off: the paper.
   bool static_test = true;

@@ -67,10 +67,16 @@ void add_match(const Problem& problem, const Eigen::Vector3d& point, const Eigen
   const Eigen::Matrix3d metric =
       along * Eigen::Matrix3d::Identity() + (1 - along) * normal * normal.transpose();
   const double root = scale * scale / (scale * scale + error.dot(metric * error));
-  Eigen::Matrix<double, 3, 6> jacobian;
-  jacobian << -skew(point - pivot), Eigen::Matrix3d::Identity();
-  H.noalias() += root * root * jacobian.transpose() * metric * jacobian;
-  b.noalias() -= root * root * jacobian.transpose() * metric * error;
+  // J = [-S, I] with S = [point - pivot]x; only the lower triangle of H = J' W J is read.
+  const Eigen::Matrix3d weighted = root * root * metric;
+  const Eigen::Matrix3d S = skew(point - pivot);
+  const Eigen::Matrix3d turned = weighted * S;
+  const Eigen::Vector3d pull = weighted * error;
+  H.topLeftCorner<3, 3>().noalias() += S.transpose() * turned;
+  H.bottomLeftCorner<3, 3>() -= turned;
+  H.bottomRightCorner<3, 3>() += weighted;
+  b.head<3>() -= (point - pivot).cross(pull);
+  b.tail<3>() -= pull;
 }
 
 /// Vehicles stay level with the ground: soft, or sparse rings would tilt them.
@@ -136,11 +142,13 @@ Candidate search_start(const Problem& problem) {
 Candidate best_candidate(const Problem& problem, const std::vector<Pose>& guesses) {
   Candidate best;
   for (const Pose& guess : guesses) {
+    if (&guess != &guesses.front() && guess.isApprox(guesses.front(), 1e-9)) continue;
     const Candidate candidate = converge(problem, guess);
     if (candidate.score < best.score) {
       best = candidate;
     }
   }
+  if (problem.options.search_m <= 0) return best;
   // A far-off start may land on a neighbour that looks alike: it must be clearly better.
   const Candidate searched = converge(problem, search_start(problem).T);
   return searched.score < 0.8 * best.score ? searched : best;
