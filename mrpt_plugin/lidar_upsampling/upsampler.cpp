@@ -197,8 +197,8 @@ EgoStep LidarUpsampler::ego_step(Stamp instant) const {
   return {exp_se3(Twist(lidar_rate_ * dt)), true};
 }
 
-// How far a constant velocity may lead astray: far if it is only hoped for, little if it was measured
-// between the last two scans.
+// How far a constant velocity may lead astray: far if it is only hoped for, little if it was
+// measured between the last two scans.
 CameraEgoOptions LidarUpsampler::camera_ego_options(double dt) const {
   constexpr double kForward = 2.5, kSideways = 1, kTurn = 0.5;  // m/s^2, m/s^2, rad/s^2
   CameraEgoOptions options = config_.camera_ego;
@@ -214,12 +214,11 @@ CameraEgoOptions LidarUpsampler::camera_ego_options(double dt) const {
 
 EgoStep LidarUpsampler::camera_step(const CameraView& view, const Picture& picture,
                                     const EgoStep& predicted) {
-  const Pose T_camera_lidar =
-      view.camera.T_vehicle_camera.inverse() * key_->scan.T_vehicle_lidar;
+  const Pose T_camera_lidar = view.camera.T_vehicle_camera.inverse() * key_->scan.T_vehicle_lidar;
   const double dt = seconds_between(key_->scan.stamp, picture.instant);
-  const auto step = estimate_camera_ego(correspondences_of(view.points, kStaticOwner),
-                                        view.camera.model, T_camera_lidar,
-                                        camera_ego_options(dt), predicted.T_to_from);
+  const auto step =
+      estimate_camera_ego(correspondences_of(view.points, kStaticOwner), view.camera.model,
+                          T_camera_lidar, camera_ego_options(dt), predicted.T_to_from);
   if (!step) return predicted;
   if (!rate_is_measured_) lidar_rate_ = log_se3(step->T_lidar_t_lidar_k) / dt;
   return {step->T_lidar_t_lidar_k, false};

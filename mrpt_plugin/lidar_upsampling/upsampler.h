@@ -79,9 +79,9 @@ class LidarUpsampler {
   std::map<std::string, std::unique_ptr<CameraView>> views_;
   std::vector<ImageResult> group_;            ///< of the instant under way
   std::map<int, KnownMotion> known_motions_;  ///< by track id
-  bool rate_is_measured_ = false;               ///< whether `lidar_rate_` is that between the last scans
-  Twist lidar_rate_ = Twist::Zero();          ///< of the last ego-motion, per second
-  std::vector<StageTime> timing_;             ///< since the last virtual scan
+  bool rate_is_measured_ = false;     ///< whether `lidar_rate_` is that between the last scans
+  Twist lidar_rate_ = Twist::Zero();  ///< of the last ego-motion, per second
+  std::vector<StageTime> timing_;     ///< since the last virtual scan
   std::vector<Stamp> expected_scans_;
   std::size_t expected_cameras_ = 0;
   double scan_period_s_ = 0;

@@ -37,8 +37,8 @@ struct CameraEgo {
 };
 
 /// @brief Ego-motion from static points of the key scan and their pixels on image t: P3P in MLESAC,
-/// then refinement with a vehicle's prior around the guess, from both. Without P3P where the guess is to be
-/// trusted: a truck that fills half the picture would be taken for the world.
+/// then refinement with a vehicle's prior around the guess, from both. Without P3P where the guess
+/// is to be trusted: a truck that fills half the picture would be taken for the world.
 /// @param correspondences points in the lidar frame at k, pixels as taken; up to half may be wrong.
 /// @param guess T_lidar_t_lidar_k, e.g. at constant velocity; the identity if nothing is known.
 /// @return none: too few, no consensus, or a motion that no vehicle makes.

@@ -12,25 +12,25 @@ namespace lidar_upsampling {
 
 /// What is known of an object's motion before it is looked at, in a frame at rest.
 struct KnownMotion {
-  Stamp stamp;                                          ///< of the instant it was measured at
+  Stamp stamp;  ///< of the instant it was measured at
   Eigen::Vector3d velocity_at_rest = Eigen::Vector3d::Zero();  ///< m/s
   double yaw_rate = 0;                                         ///< rad/s
   double velocity_sigma = 0;                                   ///< m/s, per axis
 };
 
-/// @brief Of the object moving at all when it was measured: a chi-square, of two degrees of freedom if it
-/// did not.
+/// @brief Of the object moving at all when it was measured: a chi-square, of two degrees of freedom
+/// if it did not.
 [[nodiscard]] double evidence_of_motion(const KnownMotion& known);
 
 struct MotionPriorOptions {
   bool enabled = true;
-  double unknown_speed_sigma = 12;     ///< m/s, of an object seen for the first time
-  double acceleration_sigma = 3;       ///< m/s^2
-  double yaw_rate_sigma = 0.3;         ///< rad/s, of a known object; four times as much of a new one
-  double height_sigma_m = 0.02;        ///< vehicles stay on the ground...
-  double tilt_sigma_deg = 0.3;         ///< ...and level, plus this times the time since the key scan...
-  double height_rate_sigma = 0.2;      ///< ...m/s
-  double tilt_rate_sigma_deg = 3;      ///< ...deg/s
+  double unknown_speed_sigma = 12;  ///< m/s, of an object seen for the first time
+  double acceleration_sigma = 3;    ///< m/s^2
+  double yaw_rate_sigma = 0.3;      ///< rad/s, of a known object; four times as much of a new one
+  double height_sigma_m = 0.02;     ///< vehicles stay on the ground...
+  double tilt_sigma_deg = 0.3;     ///< ...and level, plus this times the time since the key scan...
+  double height_rate_sigma = 0.2;  ///< ...m/s
+  double tilt_rate_sigma_deg = 3;  ///< ...deg/s
 };
 
 /// @brief What to expect of an object's motion over ground from the key scan on, as a Gaussian.
@@ -38,8 +38,8 @@ struct MotionPrior {
   Pose T_mov = Pose::Identity();  ///< mean, in the lidar frame at k
   double position_sigma_m = 0;    ///< of the centroid in the ground plane, per axis
   double height_sigma_m = 0;
-  double yaw_sigma = 0;           ///< rad
-  double tilt_sigma = 0;          ///< rad
+  double yaw_sigma = 0;   ///< rad
+  double tilt_sigma = 0;  ///< rad
 };
 
 /// @param known none for an object seen for the first time.
@@ -56,17 +56,17 @@ struct MotionPrior {
 
 /// One object's points in two real scans.
 struct ObjectScans {
-  std::vector<Eigen::Vector3f> before;  ///< lidar frame at the scan before
-  std::vector<Eigen::Vector3f> now;     ///< lidar frame at k
+  std::vector<Eigen::Vector3f> before;             ///< lidar frame at the scan before
+  std::vector<Eigen::Vector3f> now;                ///< lidar frame at k
   Pose T_lidar_k_lidar_before = Pose::Identity();  ///< ego-motion
   Pose T_mov_guess = Pose::Identity();  ///< over ground, in the lidar frame at the scan before
   double dt = 0;                        ///< s
 };
 
 /// @brief The velocity over ground between two real scans, by registration of the object's points.
-/// @return velocity (m/s) and yaw rate in the lidar frame at k, with sigma; none if it is not clear.
-[[nodiscard]] std::optional<KnownMotion> measure_between_scans(const ObjectScans& scans,
-                                                               Stamp stamp_k,
-                                                               const Eigen::Matrix3d& R_rest_lidar_k);
+/// @return velocity (m/s) and yaw rate in the lidar frame at k, with sigma; none if it is not
+/// clear.
+[[nodiscard]] std::optional<KnownMotion> measure_between_scans(
+    const ObjectScans& scans, Stamp stamp_k, const Eigen::Matrix3d& R_rest_lidar_k);
 
 }  // namespace lidar_upsampling

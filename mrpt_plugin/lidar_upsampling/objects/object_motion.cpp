@@ -7,8 +7,8 @@
 #include <cmath>
 
 #include "lidar_upsampling/se3.h"
-#include "lidar_upsampling/vision/projection.h"
 #include "lidar_upsampling/vision/pose_likelihood.h"
+#include "lidar_upsampling/vision/projection.h"
 
 namespace lidar_upsampling {
 namespace {
@@ -109,7 +109,8 @@ ObjectMotion estimate_object_motion(const Correspondences& correspondences,
 
   ObjectMotion& result = moved;
   result.status = MotionStatus::moving;
-  if (options.static_test && evidence_of_motion(correspondences, query, *pose, T_parked, options) < options.static_significance) {
+  if (options.static_test && evidence_of_motion(correspondences, query, *pose, T_parked, options) <
+                                 options.static_significance) {
     result = motion;
     result.status = MotionStatus::stationary;
   }

@@ -34,8 +34,8 @@ struct MotionQuery {
   Pose T_lidar_t_lidar_k = Pose::Identity();  ///< ego-motion
   Eigen::Vector3d centroid_lidar_k = Eigen::Vector3d::Zero();
   double known_evidence = 0;  ///< of motion between the last two scans, as a chi-square
-  MotionPrior prior;      ///< object motion to expect
-  double dt = 0;          ///< s, from the key scan to the image
+  MotionPrior prior;          ///< object motion to expect
+  double dt = 0;              ///< s, from the key scan to the image
 };
 
 /// @brief One object's motion from 3D-2D correspondences of its points (paper, section "Estimate

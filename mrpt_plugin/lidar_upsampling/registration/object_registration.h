@@ -13,11 +13,11 @@ struct ObjectRegistrationOptions {
   int min_points = 30;
   int max_points = 400;  ///< of the object, evenly thinned
   double max_correspondence_m = 1.0;
-  double kernel_m = 0.08;           ///< Geman-McClure scale at the end
-  double point_weight = 0.05;       ///< of the distance along the surface; 1: point to point
-  double tilt_sigma_rad = 0.005;    ///< roll and pitch, against the ego-motion
-  double height_sigma_m = 0.02;     ///< vertical step, against the ego-motion
-  double search_m = 3.0;            ///< starts are also sought this far around the ego-motion's; 0: not
+  double kernel_m = 0.08;         ///< Geman-McClure scale at the end
+  double point_weight = 0.05;     ///< of the distance along the surface; 1: point to point
+  double tilt_sigma_rad = 0.005;  ///< roll and pitch, against the ego-motion
+  double height_sigma_m = 0.02;   ///< vertical step, against the ego-motion
+  double search_m = 3.0;  ///< starts are also sought this far around the ego-motion's; 0: not
   double overlap_distance_m = 0.2;  ///< a point is covered if the target has one this near
   double min_overlap = 0.6;
   double max_spread_m = 0.1;  ///< between answers from several starts
