@@ -114,9 +114,9 @@ TEST(EgoMotion, automatic_source_prefers_poses_then_odometry_then_gnss_then_came
   EgoMotion ego;
   EXPECT_EQ(ego.source(), EgoSource::camera);
   EXPECT_FALSE(ego.step(at(0), at(0.1)));
-  ego.add_gnss({at(0), 49, 8.4, 100, {}});
+  ego.add_gnss({at(0), 49, 8.4, 100, Eigen::Vector3d::Zero()});
   EXPECT_EQ(ego.source(), EgoSource::camera);
-  ego.add_gnss({at(0.1), 49, 8.4, 100, {}});
+  ego.add_gnss({at(0.1), 49, 8.4, 100, Eigen::Vector3d::Zero()});
   EXPECT_EQ(ego.source(), EgoSource::gnss);
   ego.add_odometry({at(0), Pose::Identity()});
   ego.add_odometry({at(0.1), Pose::Identity()});
