@@ -161,8 +161,9 @@ TEST(Gnss, extrapolation_is_flagged_and_bounded) {
 
 TEST(Gnss, a_fix_off_the_globe_is_refused) {
   EgoMotion ego;
-  EXPECT_THROW(ego.add_gnss({at(0), 91, 8, 100, {}}), std::invalid_argument);
-  EXPECT_THROW(ego.add_gnss({at(0), 49, 8, std::nan(""), {}}), std::invalid_argument);
+  EXPECT_THROW(ego.add_gnss({at(0), 91, 8, 100, Eigen::Vector3d::Zero()}), std::invalid_argument);
+  EXPECT_THROW(ego.add_gnss({at(0), 49, 8, std::nan(""), Eigen::Vector3d::Zero()}),
+               std::invalid_argument);
 }
 
 }  // namespace
