@@ -19,8 +19,7 @@ std::string span_of(const StreamInfo& stream) {
          mrpt::system::dateTimeToString(stream.stamps.back());
 }
 
-const StreamInfo* select_lidar(const LogIndex& index, const Config& config,
-                               const std::string& virtual_suffix) {
+const StreamInfo* select_lidar(const LogIndex& index, const Config& config) {
   if (!config.lidar_label.empty()) {
     if (const auto* stream = index.find(config.lidar_label, StreamKind::lidar)) return stream;
     throw std::runtime_error(index.path + ": no 3D scans are labelled '" + config.lidar_label +
@@ -35,7 +34,7 @@ const StreamInfo* select_lidar(const LogIndex& index, const Config& config,
         index.path + ": several streams of 3D scans (" + lidars[0]->label + ", " +
         lidars[1]->label + (lidars.size() > 2 ? ", ..." : "") +
         "): name one with --set lidar_label=" + lidars[0]->label +
-        (lidars[1]->label == lidars[0]->label + virtual_suffix
+        (lidars[1]->label == config.virtual_label(lidars[0]->label)
              ? ", or remove the virtual scans of an earlier run with rawlog-edit"
              : ""));
   return lidars.front();
@@ -85,7 +84,7 @@ void check_clocks(const LogIndex& index, const StreamInfo& lidar, const StreamIn
 StreamSelection select_streams(const LogIndex& index, const Config& config,
                                const std::vector<std::string>& calibrated_elsewhere) {
   StreamSelection selection;
-  selection.lidar = select_lidar(index, config, "_VIRTUAL");
+  selection.lidar = select_lidar(index, config);
   selection.cameras = select_cameras(index, config, calibrated_elsewhere);
   for (const StreamInfo* camera : selection.cameras) check_clocks(index, *selection.lidar, *camera);
   if (index.find(config.virtual_label(selection.lidar->label), StreamKind::lidar) != nullptr)
