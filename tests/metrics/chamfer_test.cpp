@@ -9,6 +9,8 @@
 #include <limits>
 #include <random>
 
+#include "clouds.h"
+
 namespace lidar_upsampling {
 namespace {
 
@@ -25,14 +27,14 @@ Points random_points(int count, unsigned seed) {
   return points;
 }
 
-double brute_force_mean(const Points& from, const Points& to) {
+double brute_force_mean(const Points& from, const Points& to, bool squared = false) {
   double sum = 0;
   for (const auto& p : from) {
     double best = std::numeric_limits<double>::infinity();
     for (const auto& q : to) {
-      best = std::min<double>(best, (p - q).norm());
+      best = std::min(best, (p.cast<double>() - q.cast<double>()).squaredNorm());
     }
-    sum += best;
+    sum += squared ? best : std::sqrt(best);
   }
   return sum / static_cast<double>(from.size());
 }
@@ -60,6 +62,17 @@ TEST(Chamfer, agrees_with_brute_force) {
   const Chamfer chamfer = compute_chamfer(first, second);
   EXPECT_NEAR(chamfer.forward_m, brute_force_mean(first, second), 1e-5);
   EXPECT_NEAR(chamfer.backward_m, brute_force_mean(second, first), 1e-5);
+}
+
+TEST(Chamfer, agrees_with_brute_force_on_clouds_like_a_scanners) {
+  Points first = testing::lidar_like_cloud(3000, 4);
+  const Points second = testing::lidar_like_cloud(2500, 5, 80);
+  first.insert(first.end(), second.begin(), second.begin() + 200);  // and some on top of each other
+  const Chamfer chamfer = compute_chamfer(first, second);
+  EXPECT_NEAR(chamfer.forward_m, brute_force_mean(first, second), 1e-6);
+  EXPECT_NEAR(chamfer.backward_m, brute_force_mean(second, first), 1e-6);
+  EXPECT_NEAR(chamfer.forward_sq_m2, brute_force_mean(first, second, true), 1e-5);
+  EXPECT_NEAR(chamfer.backward_sq_m2, brute_force_mean(second, first, true), 1e-5);
 }
 
 TEST(Chamfer, does_not_depend_on_the_number_of_threads) {

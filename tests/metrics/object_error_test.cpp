@@ -17,7 +17,6 @@ using testing::houses;
 using testing::lidar_at;
 using testing::Points;
 using testing::scan_street;
-using testing::translation_between;
 
 /// A street with one car that drives on from the key scan to the reference; the ego drives, too.
 struct Scene {
@@ -158,17 +157,33 @@ TEST(ObjectError, moving_means_over_ground_and_beyond_doubt) {
   EXPECT_THROW(static_cast<void>(is_moving(vague, driving.T_ego, 0)), std::invalid_argument);
 }
 
-TEST(ErrorSummary, gives_mean_median_and_95_percent) {
-  std::vector<double> values;
-  for (int i = 100; i >= 0; --i) {
-    values.push_back(i);
-  }
-  const ErrorSummary summary = summarize(values);
-  EXPECT_EQ(summary.count, 101);
-  EXPECT_DOUBLE_EQ(summary.mean, 50);
-  EXPECT_DOUBLE_EQ(summary.median, 50);
-  EXPECT_DOUBLE_EQ(summary.p95, 95);
-  EXPECT_EQ(summarize({}).count, 0);
+TEST(ObjectError, of_depth_is_a_share_of_what_lies_before_the_camera) {
+  // The object stands 20 m before the lidar, 19.5 m before the camera; the estimate 0.39 m beyond
+  // it and a metre aside, which is no error of depth.
+  const ReferenceMotion object{{21, 2, 0}, Pose(Eigen::Translation3d(-1, 0, 0)), 0.02};
+  const Pose T_estimate(Eigen::Translation3d(-0.61, 1, 0));
+  Pose T_camera_lidar = Pose::Identity();
+  T_camera_lidar.linear() << 0, -1, 0, 0, 0, -1, 1, 0, 0;
+  T_camera_lidar.translation() = Eigen::Vector3d(0, 0, -0.5);
+  EXPECT_NEAR(depth_error(object, T_estimate, T_camera_lidar).value(), 0.02, 1e-12);
+  const ReferenceMotion behind{{-5, 2, 0}, Pose::Identity(), 0.02};
+  EXPECT_FALSE(depth_error(behind, Pose::Identity(), T_camera_lidar));
+}
+
+TEST(ObjectError, of_yaw_is_the_angle_about_the_lidars_axis) {
+  const auto yawed = [](double yaw) { return lidar_at(3, 1, yaw); };
+  EXPECT_NEAR(yaw_error({{10, 0, 0}, yawed(0.2), 0.02}, yawed(0.5)), 0.3, 1e-12);
+  EXPECT_NEAR(yaw_error({{10, 0, 0}, yawed(0.5), 0.02}, yawed(0.2)), 0.3, 1e-12);
+  EXPECT_NEAR(yaw_error({{10, 0, 0}, yawed(3.1), 0.02}, yawed(-3.1)), 2 * M_PI - 6.2, 1e-12);
+  const Pose pitched = yawed(0.2) * Eigen::AngleAxisd(0.4, Eigen::Vector3d::UnitY());
+  EXPECT_NEAR(yaw_error({{10, 0, 0}, yawed(0.2), 0.02}, pitched), 0, 1e-12);
+}
+
+TEST(ObjectError, of_velocity_is_the_missed_displacement_over_time) {
+  const ReferenceMotion object{{10, 0, 0}, Pose(Eigen::Translation3d(1, 0, 0)), 0.02};
+  EXPECT_NEAR(velocity_error(object, Pose(Eigen::Translation3d(1.3, 0.4, 0)), 0.1), 5, 1e-12);
+  EXPECT_THROW(static_cast<void>(velocity_error(object, Pose::Identity(), -0.1)),
+               std::invalid_argument);
 }
 
 }  // namespace

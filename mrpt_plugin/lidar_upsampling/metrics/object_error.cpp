@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <stdexcept>
 #include <string>
 
@@ -13,11 +12,7 @@
 namespace lidar_upsampling {
 
 double ground_speed(const ReferenceMotion& object, const Pose& T_lidar_t_lidar_k_ego, double dt) {
-  if (!(dt > 0)) {
-    throw std::invalid_argument("object error: the reference must lie after the key scan, dt is " +
-                                std::to_string(dt) + " s");
-  }
-  return position_error(object, T_lidar_t_lidar_k_ego) / dt;
+  return velocity_error(object, T_lidar_t_lidar_k_ego, dt);
 }
 
 bool is_moving(const ReferenceMotion& object, const Pose& T_lidar_t_lidar_k_ego, double dt,
@@ -29,6 +24,29 @@ bool is_moving(const ReferenceMotion& object, const Pose& T_lidar_t_lidar_k_ego,
 double position_error(const ReferenceMotion& object, const Pose& T_lidar_t_lidar_k) {
   return (object.T_lidar_t_lidar_k * object.centroid_k - T_lidar_t_lidar_k * object.centroid_k)
       .norm();
+}
+
+std::optional<double> depth_error(const ReferenceMotion& object, const Pose& T_lidar_t_lidar_k,
+                                  const Pose& T_camera_lidar_t) {
+  const double truth = (T_camera_lidar_t * object.T_lidar_t_lidar_k * object.centroid_k).z();
+  if (!(truth > 0)) {
+    return std::nullopt;
+  }
+  return std::abs((T_camera_lidar_t * T_lidar_t_lidar_k * object.centroid_k).z() - truth) / truth;
+}
+
+double yaw_error(const ReferenceMotion& object, const Pose& T_lidar_t_lidar_k) {
+  const Eigen::Matrix3d R =
+      T_lidar_t_lidar_k.linear() * object.T_lidar_t_lidar_k.linear().transpose();
+  return std::abs(std::atan2(R(1, 0) - R(0, 1), R(0, 0) + R(1, 1)));
+}
+
+double velocity_error(const ReferenceMotion& object, const Pose& T_lidar_t_lidar_k, double dt) {
+  if (!(dt > 0)) {
+    throw std::invalid_argument("object error: the reference must lie after the key scan, dt is " +
+                                std::to_string(dt) + " s");
+  }
+  return position_error(object, T_lidar_t_lidar_k) / dt;
 }
 
 Eigen::Vector3d centroid_of(const std::vector<Eigen::Vector3f>& points) {
@@ -60,27 +78,6 @@ std::optional<Pose> recover_motion(const LidarScan& key, const LidarScan& virtua
   const ObjectRegistration found = register_object(points, surface, guesses);
   return found.status == RegistrationStatus::reliable ? std::make_optional(found.T_target_object)
                                                       : std::nullopt;
-}
-
-ErrorSummary summarize(std::vector<double> values) {
-  ErrorSummary summary;
-  summary.count = static_cast<int>(values.size());
-  if (values.empty()) {
-    return summary;
-  }
-  std::sort(values.begin(), values.end());
-  const auto quantile = [&](double share) {
-    const double place = share * static_cast<double>(values.size() - 1);
-    const auto low = static_cast<std::size_t>(place);
-    const auto high = std::min(low + 1, values.size() - 1);
-    const double rest = place - static_cast<double>(low);
-    return (1 - rest) * values[low] + rest * values[high];
-  };
-  summary.mean =
-      std::accumulate(values.begin(), values.end(), 0.) / static_cast<double>(values.size());
-  summary.median = quantile(0.5);
-  summary.p95 = quantile(0.95);
-  return summary;
 }
 
 }  // namespace lidar_upsampling

@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "lidar_upsampling/metrics/summary.h"
 #include "lidar_upsampling/registration/object_registration.h"
 #include "lidar_upsampling/types.h"
 
@@ -34,6 +35,21 @@ struct MovingOptions {
 /// Metres between where the reference and an estimate put the object's centroid.
 [[nodiscard]] double position_error(const ReferenceMotion& object, const Pose& T_lidar_t_lidar_k);
 
+/// @brief Error of the centroid's depth along the camera's axis, as a share of the true depth (the
+/// paper's trajectory table gives it in percent).
+/// @return none: the object is not in front of the camera.
+[[nodiscard]] std::optional<double> depth_error(const ReferenceMotion& object,
+                                                const Pose& T_lidar_t_lidar_k,
+                                                const Pose& T_camera_lidar_t);
+
+/// Radians about the lidar's +Z between the reference's and an estimate's rotation, in [0, pi].
+[[nodiscard]] double yaw_error(const ReferenceMotion& object, const Pose& T_lidar_t_lidar_k);
+
+/// @brief m/s between the centroid's true mean velocity and an estimate's.
+/// @param dt seconds from the key scan to the reference, positive. @throw std::invalid_argument
+[[nodiscard]] double velocity_error(const ReferenceMotion& object, const Pose& T_lidar_t_lidar_k,
+                                    double dt);
+
 [[nodiscard]] Eigen::Vector3d centroid_of(const std::vector<Eigen::Vector3f>& points);
 
 /// @brief The motion that a virtual scan gave to an object of the key scan: from its own points
@@ -45,12 +61,5 @@ struct MovingOptions {
 [[nodiscard]] std::optional<Pose> recover_motion(
     const LidarScan& key, const LidarScan& virtual_scan, const std::vector<int>& object,
     const std::vector<int>& matches, const Surface& surface, const std::vector<Pose>& guesses);
-
-struct ErrorSummary {
-  int count = 0;
-  double mean = 0, median = 0, p95 = 0;  ///< zero if there are none
-};
-
-[[nodiscard]] ErrorSummary summarize(std::vector<double> values);
 
 }  // namespace lidar_upsampling

@@ -34,21 +34,6 @@ std::unordered_map<std::uint32_t, int> points_by_beam(const LidarScan& scan) {
   return points;
 }
 
-/// Points that kept their direction but not their range: the scan was drawn anew on the beams.
-bool is_redrawn(const LidarScan& key, const LidarScan& virtual_scan,
-                const std::vector<int>& matches) {
-  int num_matches = 0, num_slid = 0;
-  for (std::size_t i = 0; i < key.size(); ++i) {
-    if (matches[i] >= 0) {
-      const Eigen::Vector3f& now = virtual_scan.points[matches[i]];
-      const float sine = key.points[i].normalized().cross(now.normalized()).norm();
-      num_slid += sine < 1e-4F && std::abs(key.points[i].norm() - now.norm()) > 0.01F ? 1 : 0;
-      ++num_matches;
-    }
-  }
-  return 5 * num_slid > num_matches;
-}
-
 Pose closed_form(const Pairs& pairs) {
   Eigen::Matrix3Xd source(3, pairs.size()), target(3, pairs.size());
   for (std::size_t i = 0; i < pairs.size(); ++i) {
@@ -78,6 +63,24 @@ Pairs grow(const Pairs& pairs, Pose& T, double inlier_m) {
   return inliers;
 }
 
+/// Whether the matched points are other points than the key scan's: drawn anew on the beams, or
+/// measured by the sensor itself. Moved points keep their distances to the millimetre, most of them
+/// with the static scene.
+bool is_other_points(const LidarScan& key, const LidarScan& virtual_scan,
+                     const std::vector<int>& matches) {
+  constexpr std::size_t kEnough = 2000;
+  constexpr double kSame_m = 0.003;
+  Pairs pairs;
+  for (std::size_t i = 0; i < key.size(); ++i)
+    if (matches[i] >= 0)
+      pairs.emplace_back(key.points[i].cast<double>(),
+                         virtual_scan.points[matches[i]].cast<double>());
+  const std::size_t step = pairs.size() / kEnough + 1;
+  Pairs thinned;
+  for (std::size_t i = 0; i < pairs.size(); i += step) thinned.push_back(pairs[i]);
+  return !fit_rigid(thinned, kSame_m);
+}
+
 }  // namespace
 
 std::vector<int> match_by_beam(const LidarScan& key, const LidarScan& virtual_scan) {
@@ -93,7 +96,7 @@ std::vector<int> match_by_beam(const LidarScan& key, const LidarScan& virtual_sc
       matches[i] = found->second;
     }
   }
-  if (is_redrawn(key, virtual_scan, matches)) {
+  if (is_other_points(key, virtual_scan, matches)) {
     return {};
   }
   return matches;

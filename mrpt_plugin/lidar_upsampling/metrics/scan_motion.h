@@ -12,8 +12,8 @@ namespace lidar_upsampling {
 
 /// @brief Where a key scan's points went in a virtual scan made from it, by ring and column.
 /// @return per point of the key scan, an index into the virtual scan or -1. Cells that hold several
-/// points are left out. Empty if a scan lacks rings or columns, or if the virtual scan was drawn
-/// anew on the sensor's beams, whose points are others than the key scan's.
+/// points are left out. Empty if a scan lacks rings or columns, or if most points are others than
+/// the key scan's: drawn anew on the sensor's beams, or a scan of the sensor's own.
 [[nodiscard]] std::vector<int> match_by_beam(const LidarScan& key, const LidarScan& virtual_scan);
 
 struct RigidFit {

@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the lidar_upsampling authors
+#include "lidar_upsampling/metrics/dense_assignment.h"
+
+#include <algorithm>
+#include <limits>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+namespace lidar_upsampling {
+
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr int kNone = -1;
+
+using Costs = Eigen::Array<double, 1, Eigen::Dynamic>;
+
+class Solver {
+ public:
+  explicit Solver(const CostMatrix& cost)
+      : cost_(cost),
+        size_(static_cast<int>(cost.rows())),
+        column_potential_(cost.colwise().minCoeff()),
+        column_of_row_(size_, kNone),
+        row_of_column_(size_, kNone) {}
+
+  DenseAssignment solve() {
+    take_cheapest_rows();
+    bid();
+    for (const int row : free_rows()) {
+      augment(row);
+    }
+    DenseAssignment result{column_of_row_, Eigen::VectorXd(size_),
+                           column_potential_.matrix().transpose()};
+    for (int row = 0; row < size_; ++row) {
+      result.row_potential[row] = reduced(row, column_of_row_[row]);
+    }
+    return result;
+  }
+
+ private:
+  [[nodiscard]] double reduced(int row, int column) const {
+    return cost_(row, column) - column_potential_[column];
+  }
+
+  /// Each row takes a free column that is nowhere cheaper.
+  void take_cheapest_rows() {
+    for (int row = 0; row < size_; ++row) {
+      for (int column = 0; column < size_ && column_of_row_[row] == kNone; ++column) {
+        if (row_of_column_[column] == kNone && reduced(row, column) == 0) {
+          pair(row, column);
+        }
+      }
+    }
+  }
+
+  /// Each free row takes the column it likes best, which becomes dearer by what that is worth to
+  /// it; who held it bids next. Losers of a tie are left to augment().
+  void bid() {
+    std::vector<int> free = free_rows();
+    // Bids too small for a double's resolution would go on for ever.
+    int num_bids = 8 * size_;
+    while (!free.empty() && num_bids-- > 0) {
+      const int row = free.back();
+      free.pop_back();
+      const auto [best, second] = two_best(row);
+      const double worth = reduced(row, second) - reduced(row, best);
+      const bool tie = !(worth > 0);
+      const int column = tie && row_of_column_[best] != kNone ? second : best;
+      column_potential_[best] -= tie ? 0 : worth;
+      const int loser = row_of_column_[column];
+      pair(row, column);
+      if (loser != kNone) {
+        column_of_row_[loser] = kNone;
+        if (!tie) {
+          free.push_back(loser);
+        }
+      }
+    }
+  }
+
+  [[nodiscard]] std::pair<int, int> two_best(int row) const {
+    int best = 0, second = 0;
+    double best_cost = kInfinity, second_cost = kInfinity;
+    for (int column = 0; column < size_; ++column) {
+      const double value = reduced(row, column);
+      if (value < second_cost) {
+        if (value < best_cost) {
+          second = best;
+          second_cost = best_cost;
+          best = column;
+          best_cost = value;
+        } else {
+          second = column;
+          second_cost = value;
+        }
+      }
+    }
+    return {best, second};
+  }
+
+  /// A column that Dijkstra has reached for good, and how far the row that holds it starts.
+  struct Reached {
+    int column, row;
+    double distance, offset;
+  };
+
+  /// Dijkstra over reduced costs from a free row to the nearest free column, then shifts the pairs
+  /// along the path to it. Reached columns are hidden by an infinite price, so that what is left
+  /// of a step is arithmetic on whole rows.
+  void augment(int root) {
+    std::vector<Reached> reached{{kNone, root, 0, 0}};
+    Costs price = column_potential_;
+    Costs distance = Costs::Constant(size_, kInfinity);
+    while (true) {
+      const Reached& last = reached.back();
+      distance = distance.min(cost_.row(last.row).array() - price + last.offset);
+      const double least = distance.minCoeff();
+      const int nearest = static_cast<int>(
+          std::find(distance.data(), distance.data() + size_, least) - distance.data());
+      const int row = row_of_column_[nearest];
+      if (row == kNone) {
+        for (std::size_t i = 1; i < reached.size(); ++i) {
+          column_potential_[reached[i].column] += reached[i].distance - least;
+        }
+        return shift_pairs(nearest, reached);
+      }
+      reached.push_back({nearest, row, least, least - reduced(row, nearest)});
+      distance[nearest] = kInfinity;
+      price[nearest] = -kInfinity;
+    }
+  }
+  /// Follows the shortest path back: each column was reached by the row that makes it nearest, one
+  /// of those reached before it.
+  void shift_pairs(int column, const std::vector<Reached>& reached) {
+    for (std::size_t end = reached.size(); end > 0;) {
+      std::size_t before = 0;
+      for (std::size_t i = 1; i < end; ++i) {
+        before = reached[i].offset + cost_(reached[i].row, column) <
+                         reached[before].offset + cost_(reached[before].row, column)
+                     ? i
+                     : before;
+      }
+      pair(reached[before].row, column);
+      column = reached[before].column;
+      end = before;
+    }
+  }
+
+  void pair(int row, int column) {
+    column_of_row_[row] = column;
+    row_of_column_[column] = row;
+  }
+
+  [[nodiscard]] std::vector<int> free_rows() const {
+    std::vector<int> free;
+    for (int row = 0; row < size_; ++row) {
+      if (column_of_row_[row] == kNone) {
+        free.push_back(row);
+      }
+    }
+    return free;
+  }
+
+  const CostMatrix& cost_;
+  int size_;
+  Costs column_potential_;
+  std::vector<int> column_of_row_, row_of_column_;
+};
+
+}  // namespace
+
+DenseAssignment solve_dense_assignment(const CostMatrix& cost) {
+  if (cost.rows() != cost.cols() || !cost.allFinite()) {
+    throw std::invalid_argument("solve_dense_assignment: " + std::to_string(cost.rows()) +
+                                " rows, " + std::to_string(cost.cols()) +
+                                " columns; must be square and of finite costs");
+  }
+  return cost.size() == 0 ? DenseAssignment{} : Solver(cost).solve();
+}
+
+}  // namespace lidar_upsampling
