@@ -9,9 +9,9 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
+#include "lidar_upsampling/objects/anchored_scan.h"
 #include "lidar_upsampling/objects/object_motion.h"
 #include "lidar_upsampling/objects/object_points.h"
-#include "lidar_upsampling/vision/visibility.h"
 
 namespace lidar_upsampling {
 namespace {
@@ -24,15 +24,6 @@ Eigen::Vector3d centroid_of(const LidarScan& scan, const std::vector<int>& point
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   for (const int i : points) sum += scan.points[i].cast<double>();
   return sum / std::max<double>(1., static_cast<double>(points.size()));
-}
-
-// The object's motion per second about its own centroid, in the lidar frame at k.
-Twist rate_of(const KnownMotion& known, const Eigen::Matrix3d& R_k_rest,
-              const Eigen::Vector3d& centroid) {
-  const Eigen::Vector3d omega(0, 0, known.yaw_rate);
-  Twist rate;
-  rate << omega, R_k_rest * known.velocity_at_rest - omega.cross(centroid);
-  return rate;
 }
 
 std::vector<Eigen::Vector3f> points_at(const LidarScan& scan, const std::vector<int>& indices) {
@@ -55,8 +46,9 @@ void measure_motions(std::vector<Candidate>& candidates, const PastObjects& past
                       Pose::Identity(), dt};
     if (candidate.known) {
       const Eigen::Vector3d centroid = T_k_before.inverse() * candidate.centroid;
-      scans.T_mov_guess = exp_se3(
-          Twist(dt * rate_of(*candidate.known, past.T_rest_lidar.linear().transpose(), centroid)));
+      scans.T_mov_guess =
+          exp_se3(Twist(dt * rate_over_ground(*candidate.known,
+                                              past.T_rest_lidar.linear().transpose(), centroid)));
     }
     if (const auto measured =
             measure_between_scans(scans, key.scan.stamp, key.T_rest_lidar_k.linear()))
@@ -104,81 +96,6 @@ void remember(PastObjects& past, const KeyScanView& key, const std::vector<Candi
   past = {key.scan.stamp, key.T_rest_lidar_k, {}};
   for (const Candidate& candidate : candidates)
     past.points[candidate.track_id] = points_at(key.scan, candidate.points);
-}
-
-// Half the distance to the next ring and azimuth step on the picture, with some room.
-Neighbourhood sampling_of(const LidarScan& scan, const CameraModel& camera) {
-  Neighbourhood result;
-  if (scan.num_rings < 2 || scan.ring.empty()) return result;
-  double lowest = M_PI, highest = -M_PI;
-  for (std::size_t i = 0; i < scan.size(); i += 16) {
-    const Eigen::Vector3f& point = scan.points[i];
-    const double elevation = std::atan2(point.z(), std::hypot(point.x(), point.y()));
-    lowest = std::min(lowest, elevation);
-    highest = std::max(highest, elevation);
-  }
-  const double ring_step_px = camera.fy * std::max(0., highest - lowest) / (scan.num_rings - 1);
-  result.half_height_px = std::clamp(1.3 * ring_step_px, 3., 60.);
-  if (scan.num_columns > 0)
-    result.half_width_px = std::clamp(2.6 * camera.fx * 2 * M_PI / scan.num_columns, 3., 30.);
-  return result;
-}
-
-// The key scan on the anchor picture, each point with what speaks against following it.
-struct AnchoredScan {
-  std::vector<ProjectedPoint> points;
-  std::vector<std::uint8_t> hidden, on_edge;  ///< of each of `points`
-  std::vector<int> position;                  ///< of each point of the scan, in `points`, or -1
-};
-
-AnchoredScan anchor_scan(const LidarScan& scan, const CameraModel& camera,
-                         const Pose& T_camera_lidar_a) {
-  AnchoredScan result;
-  result.points = project_scan(camera, T_camera_lidar_a, scan.points);
-  OcclusionOptions occlusion;
-  DepthEdgeOptions edges;
-  occlusion.neighbourhood = edges.neighbourhood = sampling_of(scan, camera);
-  result.hidden = mark_occluded(result.points, occlusion);
-  result.on_edge = mark_depth_edges(result.points, edges);
-  result.position.assign(scan.size(), -1);
-  for (std::size_t i = 0; i < result.points.size(); ++i)
-    result.position[result.points[i].index] = static_cast<int>(i);
-  return result;
-}
-
-std::vector<ProjectedPoint> visible_points(const AnchoredScan& anchored) {
-  std::vector<ProjectedPoint> visible;
-  for (std::size_t i = 0; i < anchored.points.size(); ++i)
-    if (anchored.hidden[i] == 0) visible.push_back(anchored.points[i]);
-  return visible;
-}
-
-// The object's visible points, those on depth edges only if there are too few others.
-std::vector<ProjectedPoint> followable_points(const AnchoredScan& anchored,
-                                              const std::vector<int>& object, int min_points) {
-  std::vector<ProjectedPoint> inner, all;
-  for (const int i : object) {
-    const int position = anchored.position[i];
-    if (position < 0 || anchored.hidden[position] != 0) continue;
-    all.push_back(anchored.points[position]);
-    if (anchored.on_edge[position] == 0) inner.push_back(anchored.points[position]);
-  }
-  return static_cast<int>(inner.size()) >= min_points ? inner : all;
-}
-
-// Where a moving object's points were at the anchor's instant, which is not the scan's.
-void reproject(std::vector<ProjectedPoint>& points, const LidarScan& scan,
-               const CameraModel& camera, const Pose& T_camera_a_lidar_k) {
-  std::vector<ProjectedPoint> moved;
-  for (ProjectedPoint point : points) {
-    const Eigen::Vector3d p = T_camera_a_lidar_k * scan.points[point.index].cast<double>();
-    const auto pixel = project(camera, p);
-    if (!pixel) continue;
-    point.u = static_cast<float>(pixel->x());
-    point.v = static_cast<float>(pixel->y());
-    moved.push_back(point);
-  }
-  points = std::move(moved);
 }
 
 void add_static_points(PointTracks& tracks, const AnchoredScan& anchored,
@@ -253,8 +170,8 @@ void start_view(CameraView& view, std::shared_ptr<const Picture> anchor, const K
   if (config.object_motion.prior.enabled) measure_motions(view.candidates, view.past, key);
   for (Candidate& candidate : view.candidates)
     if (candidate.known)
-      candidate.rate =
-          rate_of(*candidate.known, key.T_rest_lidar_k.linear().transpose(), candidate.centroid);
+      candidate.rate = rate_over_ground(*candidate.known, key.T_rest_lidar_k.linear().transpose(),
+                                        candidate.centroid);
   remember(view.past, key, view.candidates);
   view.R_rest_lidar_k = key.T_rest_lidar_k.linear();
   view.points = {};
@@ -266,8 +183,8 @@ void start_view(CameraView& view, std::shared_ptr<const Picture> anchor, const K
     auto points =
         followable_points(anchored, candidate.points, 2 * config.object_motion.min_points);
     if (view.anchor_dt != 0 && !candidate.rate.isZero())
-      reproject(points, scan, camera,
-                T_camera_lidar_a * exp_se3(Twist(candidate.rate * view.anchor_dt)));
+      points = reprojected(points, scan, camera,
+                           T_camera_lidar_a * exp_se3(Twist(candidate.rate * view.anchor_dt)));
     const PointTrackOptions& options = config.point_tracks;
     const auto chosen =
         choose_spread(points, texture, options.max_points_per_object, options.border_px);

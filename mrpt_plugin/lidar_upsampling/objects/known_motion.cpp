@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "lidar_upsampling/registration/object_registration.h"
-#include "lidar_upsampling/se3.h"
 
 namespace lidar_upsampling {
 namespace {
@@ -25,6 +24,14 @@ double evidence_of_motion(const KnownMotion& known) {
   return std::pow(known.velocity_at_rest.norm() / std::max(known.velocity_sigma, kFinest), 2);
 }
 
+Twist rate_over_ground(const KnownMotion& known, const Eigen::Matrix3d& R_lidar_k_rest,
+                       const Eigen::Vector3d& centroid) {
+  const Eigen::Vector3d omega(0, 0, known.yaw_rate);
+  Twist rate;
+  rate << omega, R_lidar_k_rest * known.velocity_at_rest - omega.cross(centroid);
+  return rate;
+}
+
 MotionPrior expect_motion(const std::optional<KnownMotion>& known, Stamp key_stamp,
                           const Eigen::Matrix3d& R_lidar_k_rest, const Eigen::Vector3d& centroid,
                           double dt, const MotionPriorOptions& options) {
@@ -37,10 +44,7 @@ MotionPrior expect_motion(const std::optional<KnownMotion>& known, Stamp key_sta
     prior.yaw_sigma += 3 * options.yaw_rate_sigma * dt;
     return prior;
   }
-  const Eigen::Vector3d omega(0, 0, known->yaw_rate);
-  Twist rate;
-  rate << omega, R_lidar_k_rest * known->velocity_at_rest - omega.cross(centroid);
-  prior.T_mov = exp_se3(Twist(rate * dt));
+  prior.T_mov = exp_se3(Twist(rate_over_ground(*known, R_lidar_k_rest, centroid) * dt));
   const double age = seconds_between(known->stamp, key_stamp) + 0.5 * dt;
   const double speed_sigma = std::hypot(known->velocity_sigma, options.acceleration_sigma * age);
   prior.position_sigma_m = speed_sigma * dt + 0.005;

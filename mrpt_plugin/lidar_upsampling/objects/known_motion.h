@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "lidar_upsampling/se3.h"
 #include "lidar_upsampling/types.h"
 #include "lidar_upsampling/vision/refine_pose.h"
 
@@ -21,6 +22,12 @@ struct KnownMotion {
 /// @brief Of the object moving at all when it was measured: a chi-square, of two degrees of freedom
 /// if it did not.
 [[nodiscard]] double evidence_of_motion(const KnownMotion& known);
+
+/// @brief Motion over ground per second about the object's own centroid, in the lidar frame at k.
+/// @param centroid of the object, lidar frame at k.
+[[nodiscard]] Twist rate_over_ground(const KnownMotion& known,
+                                     const Eigen::Matrix3d& R_lidar_k_rest,
+                                     const Eigen::Vector3d& centroid);
 
 struct MotionPriorOptions {
   bool enabled = true;

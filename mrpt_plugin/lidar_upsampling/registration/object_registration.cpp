@@ -34,10 +34,14 @@ struct Candidate {
 };
 
 Points thinned(const Points& points, int max_points) {
-  const double stride = std::max(1., static_cast<double>(points.size()) / max_points);
+  const auto limit = static_cast<std::size_t>(max_points);
+  if (points.size() <= limit) {
+    return points;
+  }
   Points kept;
-  for (double i = 0; i < static_cast<double>(points.size()); i += stride) {
-    kept.push_back(points[static_cast<std::size_t>(i)]);
+  kept.reserve(limit);
+  for (std::size_t i = 0; i < limit; ++i) {
+    kept.push_back(points[i * points.size() / limit]);
   }
   return kept;
 }

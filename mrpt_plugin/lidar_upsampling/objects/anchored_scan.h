@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the lidar_upsampling authors
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "lidar_upsampling/types.h"
+#include "lidar_upsampling/vision/visibility.h"
+
+namespace lidar_upsampling {
+
+/// The key scan on the picture where its points are first put (the anchor), each point with what
+/// speaks against following it.
+struct AnchoredScan {
+  std::vector<ProjectedPoint> points;
+  std::vector<std::uint8_t> hidden, on_edge;  ///< of each of `points`
+  std::vector<int> position;                  ///< of each point of the scan, in `points`, or -1
+};
+
+/// @brief Projects the scan and marks points behind nearer ones and on depth edges, at the
+/// resolution of the scan's own rings and columns.
+/// @param T_camera_lidar_a lidar frame at k to the camera at the anchor, the ego-motion included.
+[[nodiscard]] AnchoredScan anchor_scan(const LidarScan& scan, const CameraModel& camera,
+                                       const Pose& T_camera_lidar_a);
+
+[[nodiscard]] std::vector<ProjectedPoint> visible_points(const AnchoredScan& anchored);
+
+/// @brief The object's visible points, those on depth edges only if there are too few others.
+/// @param object indices into the scan.
+[[nodiscard]] std::vector<ProjectedPoint> followable_points(const AnchoredScan& anchored,
+                                                            const std::vector<int>& object,
+                                                            int min_points);
+
+/// @brief Moves the points to where a moving object was at the anchor's instant, which is not the
+/// scan's; points that leave the picture are dropped.
+[[nodiscard]] std::vector<ProjectedPoint> reprojected(const std::vector<ProjectedPoint>& points,
+                                                      const LidarScan& scan,
+                                                      const CameraModel& camera,
+                                                      const Pose& T_camera_a_lidar_k);
+
+}  // namespace lidar_upsampling
