@@ -20,7 +20,8 @@ using testing::translation_between;
 /// Fixes of an antenna on a vehicle that stands for a while, then drives.
 class Receiver {
  public:
-  Receiver(double noise_m, Eigen::Vector3d antenna) : noise_(0, noise_m), antenna_(antenna) {}
+  Receiver(double noise_m, const Eigen::Vector3d& antenna)
+      : noise_(0, noise_m), antenna_(antenna) {}
 
   void fix(EgoMotion& ego, double t, const Pose& T_world_vehicle) {
     Eigen::Vector3d p = T_world_vehicle * antenna_;

@@ -79,7 +79,8 @@ TEST(Surface, voxels_hold_the_mean_of_their_points) {
 TEST(Surface, normals_stand_on_a_plane_and_are_none_on_a_line) {
   testing::Points plane, line;
   for (int i = 0; i < 100; ++i) {
-    plane.emplace_back(0.1F * static_cast<float>(i % 10), 0.1F * static_cast<float>(i / 10), 2);
+    const int row = i / 10;
+    plane.emplace_back(0.1F * static_cast<float>(i % 10), 0.1F * static_cast<float>(row), 2);
     line.emplace_back(0.1F * static_cast<float>(i), 0, 0);
   }
   for (const auto& normal : make_surface(plane).normals) {

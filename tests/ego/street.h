@@ -69,7 +69,7 @@ inline LidarScan scan_street(const std::vector<Box>& boxes, const Pose& T_world_
         }
       }
       if (range < 80) {
-        scan.points.push_back(((range + error(random)) * beam).cast<float>());
+        scan.points.emplace_back(((range + error(random)) * beam).cast<float>());
         scan.ring.push_back(static_cast<std::uint16_t>(ring));
         scan.column.push_back(static_cast<std::uint16_t>(column));
         if (owner) {
