@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <tuple>
 
+#include "depth_observation.h"
 #include "ego_observations.h"
 #include "lidar_upsampling/io/carriers.h"
 #include "lidar_upsampling/io/images.h"
@@ -160,7 +161,7 @@ class Simulation {
   void add_scan(Stamp stamp) {
     add_truth(stamp);
     const SimulatedScan simulated = last_scan_ ? *last_scan_ : scan(stamp);
-    formatter_.add(observation_from_scan(simulated.scan, carrier_), EventKind::scan);
+    formatter_.add(observation_of(simulated.scan), EventKind::scan);
     ++summary_.num_scans;
     summary_.mean_points += static_cast<double>(simulated.scan.size());
   }
@@ -184,8 +185,13 @@ class Simulation {
     if (!truth_) return;
     last_scan_ = scan(stamp);
     truth_->write(*pose_observation(world_, "GT", stamp));
-    truth_->write(*observation_from_scan(last_scan_->scan, carrier_));
+    truth_->write(*observation_of(last_scan_->scan));
     ++summary_.num_truth_scans;
+  }
+
+  [[nodiscard]] mrpt::obs::CObservation::Ptr observation_of(const LidarScan& scan) const {
+    if (scenario_.lidar.depth_camera) return depth_observation(scan, scenario_.lidar);
+    return observation_from_scan(scan, carrier_);
   }
 
   [[nodiscard]] SimulatedScan scan(Stamp stamp) const {

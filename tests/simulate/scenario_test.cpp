@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <mrpt/config/CConfigFileMemory.h>
 
+#include <filesystem>
 #include <stdexcept>
 
 #include "simulator/world.h"
@@ -25,6 +26,14 @@ std::string refusal(const std::string& ini) {
   return "";
 }
 
+std::vector<std::filesystem::path> shipped() {
+  std::vector<std::filesystem::path> files;
+  for (const auto& entry : std::filesystem::directory_iterator(SCENARIO_FOLDER)) {
+    files.push_back(entry.path());
+  }
+  return files;
+}
+
 TEST(Scenario, an_unknown_key_is_refused_by_its_name) {
   const std::string message = refusal("[lidar]\nrings = 32\ncolums = 900\n");
   EXPECT_NE(message.find("colums"), std::string::npos);
@@ -41,6 +50,33 @@ TEST(Scenario, a_value_that_cannot_be_is_refused_with_the_ones_that_can) {
   EXPECT_NE(refusal("[vehicle.a]\ntype = tank\n").find("pedestrian"), std::string::npos);
   EXPECT_NE(refusal("[vehicle.a]\nmotion = fly\n").find("fly"), std::string::npos);
   EXPECT_NE(refusal("[log]\nformat = bag\n").find("sensory_frames"), std::string::npos);
+  EXPECT_NE(refusal("[appearance]\nsun = -1\n").find("[appearance] sun is -1"), std::string::npos);
+  EXPECT_NE(refusal("[lidar]\nmin_range_m = 9\nmax_range_m = 8\n").find("max_range_m"),
+            std::string::npos);
+}
+
+TEST(Scenario, a_depth_camera_has_a_picture_in_place_of_rings) {
+  const Scenario scenario = parsed(
+      "[lidar]\ntype = depth_camera\nwidth = 64\nheight = 48\nfx = 60\n"
+      "noise_per_m2 = 0.001\nmax_range_m = 6\n[appearance]\nsky = 0.2\ngrain = 0\n");
+  const LidarSpec& depth = scenario.lidar;
+  ASSERT_TRUE(depth.depth_camera);
+  EXPECT_EQ(depth.num_rings(), 48);
+  EXPECT_EQ(depth.columns, 64);
+  EXPECT_EQ(depth.depth_camera->fy, 60);
+  EXPECT_EQ(depth.depth_camera->cx, 31.5);
+  EXPECT_EQ(depth.noise_per_m2, 0.001);
+  EXPECT_EQ(scenario.appearance.sky, 0.2);
+  EXPECT_EQ(build_world(scenario).objects.front().grain, 0);
+
+  const std::string type = "[lidar]\ntype = depth_camera\n";
+  EXPECT_NE(refusal("[lidar]\ntype = sonar\n").find("spinning, depth_camera"), std::string::npos);
+  EXPECT_NE(refusal(type + "rings = 16\n").find("[lidar] rings"), std::string::npos);
+  EXPECT_NE(refusal(type + "max_range_m = 80\n").find("0 to 65"), std::string::npos);
+  EXPECT_NE(refusal(type + "noise_per_m2 = 1\n").find("noise_per_m2 is 1"), std::string::npos);
+  EXPECT_NE(refusal(type + "[log]\ncarrier = pointcloud\n").find("[log] carrier"),
+            std::string::npos);
+  EXPECT_NE(refusal("[lidar]\nwidth = 64\n").find("[lidar] width"), std::string::npos);
 }
 
 TEST(Scenario, nothing_given_is_a_64_beam_scanner_and_one_camera) {
@@ -93,8 +129,8 @@ bool overlap(const World& world, int a, int b, double t) {
 }
 
 TEST(Scenario, nobody_drives_through_anybody_in_those_that_are_shipped) {
-  for (const char* const name : {"demo.ini", "small.ini"}) {
-    const Scenario scenario = load_scenario(std::string(SCENARIO_FOLDER "/") + name);
+  for (const std::filesystem::path& name : shipped()) {
+    const Scenario scenario = load_scenario(name.string());
     World world = build_world(scenario);
     Object ego = make_vehicle("car", 0);
     ego.motion = scenario.ego.motion;
@@ -116,8 +152,9 @@ TEST(Scenario, nobody_drives_through_anybody_in_those_that_are_shipped) {
 }
 
 TEST(Scenario, those_that_are_shipped_can_be_read) {
-  for (const char* const name : {"demo.ini", "small.ini"}) {
-    const Scenario scenario = load_scenario(std::string(SCENARIO_FOLDER "/") + name);
+  EXPECT_GE(shipped().size(), 13U);
+  for (const std::filesystem::path& name : shipped()) {
+    const Scenario scenario = load_scenario(name.string());
     EXPECT_GE(scenario.vehicles.size(), 3U) << name;
     EXPECT_GT(build_world(scenario).objects.size(), 50U) << name;
   }

@@ -88,6 +88,19 @@ TEST_F(SimulateTool, frames_hold_the_images_and_scans_where_frames_are_asked_for
   EXPECT_NE(info.output.find("number of objects         : 14"), std::string::npos) << info.output;
 }
 
+TEST_F(SimulateTool, a_depth_camera_gives_range_pictures_in_log_and_truth) {
+  const auto made =
+      simulate(SCENARIO_FOLDER "/depth_camera.ini",
+               "--duration 0 --output " + path("d.rawlog") + " --truth " + path("t.rawlog"));
+  ASSERT_EQ(made.status, 0) << made.output;
+  for (const char* const log : {"d.rawlog", "t.rawlog"}) {
+    const auto text = run("rawlog-edit --describe -i " + path(log));
+    EXPECT_NE(text.output.find("Has raw range data? YES (embedded)"), std::string::npos) << log;
+    EXPECT_NE(text.output.find("Has 3D point cloud? NO"), std::string::npos) << log;
+    EXPECT_NE(text.output.find("Sensor label: 'DEPTH'"), std::string::npos) << log;
+  }
+}
+
 TEST_F(SimulateTool, a_failure_is_one_line_and_leaves_nothing_behind) {
   std::ofstream(path("bad.ini")) << "[lidar]\nrngs = 3\n";
   const auto bad = simulate(path("bad.ini"), "--output " + path("o.rawlog"));

@@ -48,13 +48,14 @@ Vector3f filtered_albedo(const CameraView& now, const RayHit& hit, const PixelRa
 
 Fragment trace(const CameraView& now, const PixelRay& ray, const std::vector<int>& candidates) {
   const RayHit hit = now.view.cast(ray.direction, candidates);
-  if (!hit.any()) return {sky(ray.direction, ray.dv.norm()), 0, -1};
+  if (!hit.any()) return {sky(now.world.appearance, ray.direction, ray.dv.norm()), 0, -1};
   const Vector3d point = now.T_world_camera.translation() + hit.range * ray.direction;
-  const bool lit = now.shadows.lit(point, hit.normal);
+  const bool lit = now.world.appearance.sun > 0 && now.shadows.lit(point, hit.normal);
   Fragment fragment;
   fragment.object = hit.object;
   fragment.surface = hash(hash(hit.object, hit.part), 2 * (hit.face + 1) + (lit ? 1 : 0)) | 1U;
-  fragment.color = shaded(filtered_albedo(now, hit, ray), hit.normal, lit, hit.range);
+  fragment.color =
+      shaded(now.world.appearance, filtered_albedo(now, hit, ray), hit.normal, lit, hit.range);
   return fragment;
 }
 

@@ -45,7 +45,7 @@ RayBundle bundle_of(const Instant& now, int ring_from, int ring_to, int column_f
     }
   }
   bundle.half_angle = std::acos(lowest_cosine) + 0.01;
-  // Columns are half-planes through the scanner's axis.
+  // Columns are half-planes through the scanner's axis; a depth picture's are, too.
   const Eigen::Vector3d up = R.col(2);
   const Eigen::Vector3d first = R * beam_direction(now.lidar, ring_from, column_from);
   const Eigen::Vector3d last = R * beam_direction(now.lidar, ring_from, column_to);
@@ -73,12 +73,13 @@ Return measured(const Instant& now, const RayHit& hit, const Eigen::Vector3d& di
   const double reach = lidar.max_range_m * std::sqrt(bright * facing / 0.02);
   const double chance = uniform(now.seed ^ 0x51ed27U, beam);
   if (hit.range > reach || chance < lidar.dropout + 0.6 * surface.glass) return {};
-  const double range = hit.range + lidar.noise_m * gaussian(now.seed, beam);
+  const double sigma = lidar.noise_m + lidar.noise_per_m2 * hit.range * hit.range;
+  const double range = hit.range + sigma * gaussian(now.seed, beam);
   return {static_cast<float>(range), bright * (0.35F + 0.65F * facing), hit.object};
 }
 
 void scan_columns(const Instant& now, int column_from, std::vector<Return>& returns) {
-  const int num_rings = static_cast<int>(now.lidar.elevations.size());
+  const int num_rings = now.lidar.num_rings();
   const int column_to = std::min(column_from + kBundle, now.lidar.columns) - 1;
   for (int ring_from = 0; ring_from < num_rings; ring_from += kBundle) {
     const int ring_to = std::min(ring_from + kBundle, num_rings) - 1;
@@ -100,13 +101,13 @@ SimulatedScan collected(const LidarSpec& lidar, const std::vector<Return>& retur
   LidarScan& scan = result.scan;
   scan.label = lidar.label;
   scan.T_vehicle_lidar = lidar.T_vehicle_lidar;
-  scan.num_rings = static_cast<int>(lidar.elevations.size());
+  scan.num_rings = lidar.num_rings();
   scan.num_columns = lidar.columns;
   for (int column = 0; column < lidar.columns; ++column) {
     for (int ring = 0; ring < scan.num_rings; ++ring) {
       const Return& r = returns[static_cast<std::size_t>(column) * scan.num_rings + ring];
       if (r.range <= 0) continue;
-      scan.points.push_back((r.range * beam_direction(lidar, ring, column)).cast<float>());
+      scan.points.emplace_back((r.range * beam_direction(lidar, ring, column)).cast<float>());
       scan.intensity.push_back(r.intensity);
       scan.ring.push_back(static_cast<std::uint16_t>(ring));
       scan.column.push_back(static_cast<std::uint16_t>(column));
@@ -119,6 +120,11 @@ SimulatedScan collected(const LidarSpec& lidar, const std::vector<Return>& retur
 }  // namespace
 
 Eigen::Vector3d beam_direction(const LidarSpec& lidar, int ring, int column) {
+  if (lidar.depth_camera) {
+    const CameraModel& m = *lidar.depth_camera;
+    const int row = m.height - 1 - ring;
+    return Eigen::Vector3d(1, (m.cx - column) / m.fx, (m.cy - row) / m.fy).normalized();
+  }
   const double azimuth = M_PI - 2 * M_PI * (column + 0.5) / lidar.columns;
   const double elevation = lidar.elevations[ring];
   return {std::cos(elevation) * std::cos(azimuth), std::cos(elevation) * std::sin(azimuth),
@@ -136,7 +142,7 @@ SimulatedScan scan_at(const World& world, const LidarSpec& lidar, Stamp stamp, s
                     T_world_lidar,
                     View(scene, T_world_lidar.translation()),
                     hash(seed, ticks)};
-  std::vector<Return> returns(lidar.elevations.size() * lidar.columns);
+  std::vector<Return> returns(static_cast<std::size_t>(lidar.num_rings()) * lidar.columns);
   const int num_bundles = (lidar.columns + kBundle - 1) / kBundle;
   tbb::parallel_for(0, num_bundles, [&](int i) { scan_columns(now, i * kBundle, returns); });
   SimulatedScan result = collected(lidar, returns);

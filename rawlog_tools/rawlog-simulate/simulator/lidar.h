@@ -20,7 +20,7 @@ struct SimulatedScan {
                                     std::uint32_t seed);
 
 /// Of a beam in the lidar frame, unit length. Columns run clockwise from the rear, as the scanner
-/// turns.
+/// turns, or from left to right in a depth picture.
 [[nodiscard]] Eigen::Vector3d beam_direction(const LidarSpec& lidar, int ring, int column);
 
 }  // namespace lidar_upsampling::sim

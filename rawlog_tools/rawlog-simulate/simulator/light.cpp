@@ -98,7 +98,7 @@ bool SunShadows::blocked(const PlacedPart& part, const Vector3d& point) const {
   return true;
 }
 
-Vector3f sky(const Vector3d& direction, double size) {
+Vector3f sky(const AppearanceSpec& appearance, const Vector3d& direction, double size) {
   const double up = std::max(0., direction.z());
   const Vector3f zenith(0.16F, 0.36F, 0.78F);
   Vector3f color = blended(kHaze, zenith, static_cast<float>(1 - std::exp(-4.5 * up)));
@@ -109,16 +109,19 @@ Vector3f sky(const Vector3d& direction, double size) {
       fractal_noise(on_plane, 11, {1.1, 6, 0.62}, std::max(1e-3, size * flat * flat * 0.3));
   const auto cover =
       std::clamp(1.5F * noise - 0.1F, 0.F, 1.F) * static_cast<float>(std::min(1., 5 * up));
-  return blended(color, Vector3f(1.02F, 1.02F, 1.02F), 0.75F * cover);
+  color = blended(color, Vector3f(1.02F, 1.02F, 1.02F), 0.75F * cover);
+  return static_cast<float>(appearance.sky) * color;
 }
 
-Vector3f shaded(const Vector3f& albedo, const Vector3d& normal, bool lit, double range) {
+Vector3f shaded(const AppearanceSpec& appearance, const Vector3f& albedo, const Vector3d& normal,
+                bool lit, double range) {
   const auto facing = static_cast<float>(std::max(0., normal.dot(sun_direction())));
   const auto open = static_cast<float>(0.62 + 0.38 * normal.z());
-  const Vector3f light = kSkyLight * open + (lit ? 1.F : 0.F) * facing * kSunLight;
+  const auto sun = static_cast<float>(appearance.sun), day = static_cast<float>(appearance.sky);
+  const Vector3f light = day * open * kSkyLight + (lit ? sun : 0.F) * facing * kSunLight;
   const Vector3f color = albedo.cwiseProduct(light) * 0.5F;
   const auto veil = static_cast<float>(1 - std::exp(-range / 420));
-  return blended(color, kHaze, veil);
+  return blended(color, Vector3f(day * kHaze), veil);
 }
 
 }  // namespace lidar_upsampling::sim

@@ -31,11 +31,13 @@ class SunShadows {
 };
 
 /// Radiance of the sky in a direction of the world: gradient, clouds, haze at the horizon.
-[[nodiscard]] Eigen::Vector3f sky(const Eigen::Vector3d& direction, double size);
+[[nodiscard]] Eigen::Vector3f sky(const AppearanceSpec& appearance,
+                                  const Eigen::Vector3d& direction, double size);
 
 /// Light from a surface towards a viewer at a distance: Lambert under sun and sky, seen through
 /// haze.
-[[nodiscard]] Eigen::Vector3f shaded(const Eigen::Vector3f& albedo, const Eigen::Vector3d& normal,
+[[nodiscard]] Eigen::Vector3f shaded(const AppearanceSpec& appearance,
+                                     const Eigen::Vector3f& albedo, const Eigen::Vector3d& normal,
                                      bool lit, double range);
 
 }  // namespace lidar_upsampling::sim

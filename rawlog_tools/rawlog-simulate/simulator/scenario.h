@@ -37,15 +37,30 @@ struct EgoSpec {
   double heave = 0;                      ///< m
 };
 
+/// Light and surfaces, as factors on those of a clear day.
+struct AppearanceSpec {
+  double sun = 1;    ///< 0: no shadows either
+  double sky = 1;    ///< what it lights, and how bright it is itself
+  double grain = 1;  ///< contrast of the surfaces' fine irregular pattern; 0: plain paint
+};
+
 struct LidarSpec {
   std::string label = "LIDAR";
   std::vector<double> elevations;  ///< rad, of each ring, the lowest first
   int columns = 1900;
+  /// A dense depth picture through a pinhole (+X forward) instead of turning beams: its lowest row
+  /// is ring 0.
+  std::optional<CameraModel> depth_camera;
   double rate_hz = 10, phase_s = 0;
-  double noise_m = 0.02;  ///< sigma of the range
-  double dropout = 0.01;  ///< share of the returns that are missing by chance
+  double noise_m = 0.02;    ///< sigma of the range
+  double noise_per_m2 = 0;  ///< times the squared range, added to that sigma
+  double dropout = 0.01;    ///< share of the returns that are missing by chance
   double min_range_m = 1, max_range_m = 120;
   Pose T_vehicle_lidar = Pose::Identity();
+
+  [[nodiscard]] int num_rings() const {
+    return depth_camera ? depth_camera->height : static_cast<int>(elevations.size());
+  }
 };
 
 struct CameraSpec {
@@ -75,6 +90,7 @@ struct Scenario {
   std::vector<CameraSpec> cameras;
   std::vector<VehicleSpec> vehicles;
   StreetSpec street;
+  AppearanceSpec appearance;
   EgoPoseSpec ego_poses;
   LogFormat format = LogFormat::observations;
   std::string carrier = "auto";

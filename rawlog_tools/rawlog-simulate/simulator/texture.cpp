@@ -134,7 +134,7 @@ Surface surface_at(const StreetSpec& street, const Object& object, const Part& p
   switch (part.material) {
     case Material::asphalt:
     case Material::pavement:
-      return ground_surface(street, part, p);
+      return ground_surface(street, object, part, p);
     case Material::body:
     case Material::cabin:
     case Material::cargo:
@@ -155,18 +155,19 @@ Surface surface_at(const StreetSpec& street, const Object& object, const Part& p
   }
   // What hills are grown with is as coarse as they are large.
   const double scale = part.solid.bounding_radius > 30 ? 12 : 1;
-  const float noise =
-      fractal_noise(p.position / scale, object.seed, spectrum(part.material), p.size / scale);
+  const float noise = object.grain * fractal_noise(p.position / scale, object.seed,
+                                                   spectrum(part.material), p.size / scale);
   surface.albedo *= std::max(0.15F, 1 + roughness(part.material) * noise);
   return surface;
 }
 
-Surface ground_surface(const StreetSpec& street, const Part& part, const SurfacePoint& p) {
+Surface ground_surface(const StreetSpec& street, const Object& ground, const Part& part,
+                       const SurfacePoint& p) {
   Surface surface;
   surface.albedo = part.color;
   const double x = p.position.x(), y = std::abs(p.position.y()), dx = p.extent.x(),
                dy = p.extent.y();
-  const float noise = fractal_noise(p.position, 5, {0.9, 7, 0.95}, p.size);
+  const float noise = ground.grain * fractal_noise(p.position, 5, {0.9, 7, 0.95}, p.size);
   const double kerb = kerb_y(street);
   if (part.material == Material::pavement) {
     const float joints = stripes(x, 0.8, 0.02, dx) + stripes(p.position.y(), 0.6, 0.02, dy);

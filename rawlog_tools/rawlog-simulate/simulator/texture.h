@@ -29,8 +29,8 @@ struct SurfacePoint {
 /// The same for what belongs to vehicles and to the street, in their own files.
 [[nodiscard]] Surface vehicle_surface(const Object& object, const Part& part,
                                       const SurfacePoint& point);
-[[nodiscard]] Surface ground_surface(const StreetSpec& street, const Part& part,
-                                     const SurfacePoint& point);
+[[nodiscard]] Surface ground_surface(const StreetSpec& street, const Object& ground,
+                                     const Part& part, const SurfacePoint& point);
 
 [[nodiscard]] inline Eigen::Vector3f blended(const Eigen::Vector3f& a, const Eigen::Vector3f& b,
                                              float share) {

@@ -154,7 +154,8 @@ Surface vehicle_surface(const Object& object, const Part& part, const SurfacePoi
   if (part.material == Material::cabin) paint_cabin(surface, shape, point);
   if (part.material == Material::cargo) paint_cargo(surface, object, point);
   if (part.material == Material::wheel) paint_wheel(surface, shape, point);
-  const float noise = fractal_noise(point.position, object.seed, kWeathering, point.size);
+  const float noise =
+      object.grain * fractal_noise(point.position, object.seed, kWeathering, point.size);
   const double grime = std::max(0., 1 - (point.position.z() - shape.clearance) / 0.5);
   put(surface, Vector3f(0.16F, 0.13F, 0.10F),
       static_cast<float>(0.45 * grime) * std::max(0.F, 0.5F + 0.7F * noise));

@@ -36,6 +36,7 @@ Pose World::T_world_vehicle(double t) const {
 World build_world(const Scenario& scenario) {
   World world;
   world.street = scenario.street;
+  world.appearance = scenario.appearance;
   world.ego = scenario.ego;
   double x_from = scenario.ego.motion.x, x_to = x_from;
   const int half_seconds = static_cast<int>(2 * scenario.duration_s);
@@ -48,7 +49,10 @@ World build_world(const Scenario& scenario) {
   for (std::size_t i = 0; i < scenario.vehicles.size(); ++i) {
     world.objects.push_back(vehicle_of(scenario.vehicles[i], hash(scenario.seed, 1000 + i)));
   }
-  for (std::size_t i = 0; i < world.objects.size(); ++i) world.objects[i].id = static_cast<int>(i);
+  for (std::size_t i = 0; i < world.objects.size(); ++i) {
+    world.objects[i].id = static_cast<int>(i);
+    world.objects[i].grain = static_cast<float>(scenario.appearance.grain);
+  }
   return world;
 }
 

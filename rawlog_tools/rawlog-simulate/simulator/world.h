@@ -52,6 +52,7 @@ struct Object {
   int id = 0;
   std::string class_name;  ///< of traffic participants; empty for what stands for good
   std::uint32_t seed = 0;  ///< of its texture
+  float grain = 1;         ///< contrast of its fine pattern
   VehicleShape shape;      ///< of traffic participants
   std::vector<Part> parts;
   MotionProfile motion;
@@ -67,6 +68,7 @@ struct Object {
 /// Everything there is, the ego vehicle excepted. Objects' ids are their places in `objects`.
 struct World {
   StreetSpec street;
+  AppearanceSpec appearance;
   EgoSpec ego;
   std::vector<Object> objects;
 

@@ -1,0 +1,241 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the lidar_upsampling authors
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <opencv2/core.hpp>
+#include <set>
+
+#include "test_world.h"
+
+// What the name of each shipped scenario promises, measured on its truth.
+namespace lidar_upsampling::sim {
+namespace {
+
+constexpr double kRadian = M_PI / 180;
+
+struct Shipped {
+  Scenario scenario;
+  World world;
+  int num_scans_in_all = 0;
+  std::vector<Stamp> stamps;           ///< of the scans
+  std::vector<std::vector<int>> hits;  ///< points of each vehicle, per scan
+
+  explicit Shipped(const std::string& name, int every = 1)
+      : scenario(load_scenario(SCENARIO_FOLDER "/" + name + ".ini")),
+        world(build_world(scenario)),
+        stamps(stamps_of(scenario.lidar.rate_hz, scenario.lidar.phase_s, scenario.duration_s)) {
+    num_scans_in_all = static_cast<int>(stamps.size());
+    for (int i = 0; every * i < num_scans_in_all; ++i) stamps[i] = stamps[every * i];
+    stamps.resize((stamps.size() + every - 1) / every);
+    for (const Stamp stamp : stamps) {
+      const SimulatedScan scan = scan_at(world, scenario.lidar, stamp, scenario.seed);
+      std::vector<int> points(world.objects.size(), 0);
+      for (const int object : scan.object) ++points[object];
+      hits.emplace_back(points.begin() + first_vehicle(), points.end());
+    }
+  }
+
+  [[nodiscard]] int num_vehicles() const { return static_cast<int>(scenario.vehicles.size()); }
+  [[nodiscard]] int first_vehicle() const {
+    return static_cast<int>(world.objects.size()) - num_vehicles();
+  }
+  [[nodiscard]] MotionState vehicle_at(int vehicle, double t) const {
+    return state_at(scenario.vehicles[vehicle].motion, t);
+  }
+  // Within 40 m, its middle on the picture, and enough points to be found.
+  [[nodiscard]] bool in_view(int vehicle, std::size_t scan, int fewest_points = 20) const {
+    const Camera& camera = scenario.cameras[0].camera;
+    const double t = time_of(stamps[scan]);
+    const Eigen::Vector3d p = (world.T_world_vehicle(t) * camera.T_vehicle_camera).inverse() *
+                              (vehicle_at(vehicle, t).pose() * Eigen::Vector3d(0, 0, 0.8));
+    const double u = camera.model.fx * p.x() / p.z() + camera.model.cx;
+    return p.z() > 0 && p.z() < 40 && u >= 0 && u < camera.model.width &&
+           hits[scan][vehicle] >= fewest_points;
+  }
+  // In how many scans a vehicle is in view while `holds(vehicle, t)`.
+  template <typename Condition>
+  [[nodiscard]] int num_scans(int vehicle, const Condition& holds) const {
+    int count = 0;
+    for (std::size_t i = 0; i < stamps.size(); ++i) {
+      count += in_view(vehicle, i) && holds(vehicle, time_of(stamps[i])) ? 1 : 0;
+    }
+    return count;
+  }
+  // How many vehicles do so in at least so many scans.
+  template <typename Condition>
+  [[nodiscard]] int num_vehicles_that(int fewest_scans, const Condition& holds) const {
+    int count = 0;
+    for (int v = 0; v < num_vehicles(); ++v) count += num_scans(v, holds) >= fewest_scans ? 1 : 0;
+    return count;
+  }
+};
+
+class ScenarioSet : public testing::TestWithParam<const char*> {};
+
+TEST_P(ScenarioSet, is_short_and_shows_what_moves_within_40_metres) {
+  const Shipped shipped(GetParam(), 2);
+  EXPECT_GE(shipped.num_scans_in_all, 15);
+  EXPECT_LE(shipped.num_scans_in_all, 26);
+  EXPECT_EQ(shipped.scenario.cameras[0].rate_hz, 3 * shipped.scenario.lidar.rate_hz);
+  const auto moves = [&](int v, double t) { return shipped.vehicle_at(v, t).speed > 0.3; };
+  EXPECT_GE(shipped.num_vehicles_that(3, moves), 2);
+  std::ifstream file(SCENARIO_FOLDER "/" + std::string(GetParam()) + ".ini");
+  std::string first_line;
+  std::getline(file, first_line);
+  EXPECT_EQ(first_line.substr(0, 2), "# ");
+}
+
+INSTANTIATE_TEST_SUITE_P(all, ScenarioSet,
+                         testing::Values("queue", "oncoming", "braking", "turning", "first_seen",
+                                         "occlusion", "low_texture", "standing_ego", "rotating_ego",
+                                         "sparse_16", "depth_camera"),
+                         [](const auto& name) { return std::string(name.param); });
+
+TEST(QueueScenario, many_creep_and_some_stand_close_together) {
+  const Shipped queue("queue");
+  const auto creeps = [&](int v, double t) {
+    const double speed = queue.vehicle_at(v, t).speed;
+    return speed > 0.3 && speed < 3.5;
+  };
+  const auto stands = [&](int v, double t) { return queue.vehicle_at(v, t).speed == 0; };
+  EXPECT_GE(queue.num_vehicles_that(10, creeps), 5);
+  EXPECT_GE(queue.num_vehicles_that(10, stands), 1);
+  int close = 0;
+  for (int a = 0; a < queue.num_vehicles(); ++a) {
+    for (int b = 0; b < queue.num_vehicles(); ++b) {
+      const auto length = [&](int v) {
+        return queue.world.objects[queue.first_vehicle() + v].shape.length;
+      };
+      const MotionState behind = queue.vehicle_at(a, 1), ahead = queue.vehicle_at(b, 1);
+      const double gap = ahead.x - behind.x - 0.5 * (length(a) + length(b));
+      close += std::abs(ahead.y - behind.y) < 1 && gap > 0 && gap < 2 ? 1 : 0;
+    }
+  }
+  EXPECT_GE(close, 4);
+}
+
+TEST(OncomingScenario, traffic_closes_in_at_30_metres_a_second) {
+  const Shipped oncoming("oncoming");
+  const auto closes_in = [&](int v, double t) {
+    const MotionState ego = state_at(oncoming.world.ego.motion, t);
+    return (ego.velocity() - oncoming.vehicle_at(v, t).velocity()).x() >= 28 &&
+           oncoming.vehicle_at(v, t).x > ego.x;
+  };
+  EXPECT_GE(oncoming.num_vehicles_that(5, closes_in), 3);
+}
+
+TEST(BrakingScenario, vehicles_in_view_brake_hard) {
+  const Shipped braking("braking");
+  const auto brakes = [&](int v, double t) {
+    return braking.vehicle_at(v, t).speed - braking.vehicle_at(v, t + 0.1).speed > 0.3;
+  };
+  EXPECT_GE(braking.num_vehicles_that(10, brakes), 3);
+  const MotionProfile& ego = braking.world.ego.motion;
+  EXPECT_GT(state_at(ego, 1).speed - state_at(ego, 2).speed, 3);
+}
+
+TEST(TurningScenario, vehicles_in_view_turn_to_both_sides) {
+  const Shipped turning("turning");
+  const auto left = [&](int v, double t) { return turning.vehicle_at(v, t).yaw_rate > 0.6; };
+  const auto right = [&](int v, double t) { return turning.vehicle_at(v, t).yaw_rate < -0.6; };
+  EXPECT_GE(turning.num_vehicles_that(10, left), 1);
+  EXPECT_GE(turning.num_vehicles_that(5, right), 2);
+}
+
+TEST(FirstSeenScenario, scans_show_something_that_none_before_has_shown) {
+  const Shipped first_seen("first_seen");
+  std::set<std::size_t> moments;
+  for (int v = 0; v < first_seen.num_vehicles(); ++v) {
+    std::size_t i = 0;
+    // A stray point, under a parked van or so, is nothing that could be found.
+    while (i < first_seen.hits.size() && first_seen.hits[i][v] < 5) ++i;
+    const bool moves = first_seen.vehicle_at(v, 0).speed > 1;
+    const bool leaves_time = i + 1 < first_seen.hits.size();
+    if (i > 0 && moves && leaves_time && first_seen.in_view(v, i, 30)) moments.insert(i);
+  }
+  EXPECT_GE(moments.size(), 4U);
+}
+
+TEST(OcclusionScenario, vehicles_vanish_within_the_view_and_come_back) {
+  const Shipped occlusion("occlusion");
+  int vanishing = 0;
+  for (int v = 0; v < occlusion.num_vehicles(); ++v) {
+    int before = 0, hidden = 0, after = 0;
+    for (std::size_t i = 0; i < occlusion.hits.size(); ++i) {
+      const int n = occlusion.hits[i][v];
+      if (n == 0 && before >= 3 && occlusion.in_view(v, i, 0)) ++hidden;
+      if (n >= 20) ++(hidden > 0 ? after : before);
+    }
+    if (hidden >= 4 && after >= 3) ++vanishing;
+  }
+  EXPECT_GE(vanishing, 2);
+}
+
+TEST(LowTextureScenario, the_picture_is_dark_flat_and_noisy) {
+  Shipped night("low_texture");
+  CameraSpec small = night.scenario.cameras[0];
+  EXPECT_GE(small.noise, 4);
+  CameraModel& model = small.camera.model;
+  model.width /= 6;
+  model.height /= 6;
+  for (double* const value : {&model.fx, &model.fy, &model.cx, &model.cy}) *value /= 6;
+  const auto contrast = [](const RenderedImage& picture) {
+    cv::Scalar mean, sigma;
+    cv::meanStdDev(picture.image.gray, mean, sigma);
+    EXPECT_GT(mean[0], 20);
+    return std::pair(mean[0], sigma[0]);
+  };
+  const auto dark = contrast(CameraRenderer(small).render(night.world, start_stamp(), 1));
+  night.world.appearance = {};
+  small.gain.clear();
+  const auto day = contrast(CameraRenderer(small).render(night.world, start_stamp(), 1));
+  EXPECT_LT(dark.first, 0.5 * day.first);
+  EXPECT_LT(dark.second, 0.6 * day.second);
+  for (const Object& object : night.world.objects) ASSERT_LT(object.grain, 0.3F);
+}
+
+TEST(StandingEgoScenario, only_the_others_move) {
+  const Shipped standing("standing_ego");
+  const Pose at_start = standing.world.T_world_vehicle(0);
+  for (const Stamp stamp : standing.stamps) {
+    EXPECT_EQ(standing.world.T_world_vehicle(time_of(stamp)).matrix(), at_start.matrix());
+  }
+  const auto drives = [&](int v, double t) { return standing.vehicle_at(v, t).speed > 1; };
+  EXPECT_GE(standing.num_vehicles_that(10, drives), 4);
+}
+
+TEST(RotatingEgoScenario, the_ego_turns_and_hardly_gets_on) {
+  const Shipped rotating("rotating_ego");
+  const MotionProfile& ego = rotating.world.ego.motion;
+  double turned = 0;
+  for (const Stamp stamp : rotating.stamps) {
+    turned += state_at(ego, time_of(stamp)).yaw_rate / rotating.scenario.lidar.rate_hz;
+  }
+  EXPECT_GT(turned, 80 * kRadian);
+  const MotionState late = state_at(ego, rotating.scenario.duration_s);
+  EXPECT_LT(late.speed / late.yaw_rate, 0.3);  // the radius of its curve, at last
+}
+
+TEST(Sparse16Scenario, there_are_16_rings) {
+  const Shipped sparse("sparse_16");
+  const LidarScan scan = scan_at(sparse.world, sparse.scenario.lidar, start_stamp(), 1).scan;
+  EXPECT_EQ(scan.num_rings, 16);
+  EXPECT_EQ(std::set<int>(scan.ring.begin(), scan.ring.end()).size(), 16U);
+}
+
+TEST(DepthCameraScenario, the_view_is_narrow_short_and_dense) {
+  const Shipped depth("depth_camera");
+  const LidarSpec& spec = depth.scenario.lidar;
+  ASSERT_TRUE(spec.depth_camera);
+  EXPECT_GT(spec.noise_per_m2, 0);
+  const LidarScan scan = scan_at(depth.world, spec, start_stamp(), 1).scan;
+  EXPECT_GT(scan.size(), 30000U);
+  for (const Eigen::Vector3f& p : scan.points) {
+    ASSERT_LT(std::abs(std::atan2(p.y(), p.x())), 30 * kRadian);
+    ASSERT_LT(p.norm(), spec.max_range_m + 1);
+  }
+}
+
+}  // namespace
+}  // namespace lidar_upsampling::sim
