@@ -7,11 +7,11 @@ set -euo pipefail
 packages=(
   g++ cmake ninja-build
   libmrpt-dev mrpt-apps libopencv-dev libceres-dev libeigen3-dev libgeographiclib-dev libtbb-dev
-  libnanoflann-dev libcli11-dev nlohmann-json3-dev zlib1g-dev
+  libnanoflann-dev libcli11-dev nlohmann-json3-dev libtinyxml2-dev zlib1g-dev gnuplot-nox
 )
 case "${1:-}" in
   "") ;;
-  --tests) packages+=(libgtest-dev libbenchmark-dev clang-format xvfb x11-apps) ;;
+  --tests) packages+=(libgtest-dev libbenchmark-dev clang-format xvfb x11-apps chromium) ;;
   *) echo "usage: $0 [--tests]" >&2; exit 2 ;;
 esac
 

@@ -50,15 +50,11 @@ Pose rigid_motion(const std::string& path) {
   return T;
 }
 
-// The rectified camera: K and the offset from camera 0 are both in its projection matrix.
-Camera camera(const Entries& entries, int number, const Pose& T_rectified_0_vehicle) {
-  const std::string suffix = "_rect_0" + std::to_string(number);
-  const auto P = entries.matrix<3, 4>("P" + suffix);
-  const auto size = entries.matrix<2, 1>("S" + suffix);
+// A rectified camera: K and the offset from camera 0 are both in its projection matrix.
+Camera camera_from(const Eigen::Matrix<double, 3, 4>& P, int number,
+                   const Pose& T_rectified_0_vehicle) {
   Camera camera;
   camera.label = "CAM" + std::to_string(number);
-  camera.model.width = static_cast<int>(size.x());
-  camera.model.height = static_cast<int>(size.y());
   camera.model.fx = P(0, 0);
   camera.model.fy = P(1, 1);
   camera.model.cx = P(0, 2);
@@ -66,6 +62,15 @@ Camera camera(const Entries& entries, int number, const Pose& T_rectified_0_vehi
   Pose T_camera_rectified_0 = Pose::Identity();
   T_camera_rectified_0.translation() = P.leftCols<3>().inverse() * P.col(3);
   camera.T_vehicle_camera = (T_camera_rectified_0 * T_rectified_0_vehicle).inverse();
+  return camera;
+}
+
+Camera camera_of_drive(const Entries& entries, int number, const Pose& T_rectified_0_vehicle) {
+  const std::string suffix = "_rect_0" + std::to_string(number);
+  Camera camera = camera_from(entries.matrix<3, 4>("P" + suffix), number, T_rectified_0_vehicle);
+  const auto size = entries.matrix<2, 1>("S" + suffix);
+  camera.model.width = static_cast<int>(size.x());
+  camera.model.height = static_cast<int>(size.y());
   return camera;
 }
 
@@ -98,7 +103,23 @@ Calibration read_calibration(const std::string& folder) {
   calibration.T_vehicle_lidar = T_lidar_vehicle.inverse();
   for (int number = 0; number < 4; ++number) {
     if (!cameras.has("P_rect_0" + std::to_string(number))) continue;
-    calibration.cameras[number] = camera(cameras, number, T_rectified_0_vehicle);
+    calibration.cameras[number] = camera_of_drive(cameras, number, T_rectified_0_vehicle);
+  }
+  return calibration;
+}
+
+Calibration read_sequence_calibration(const std::string& path) {
+  const Entries entries(path);
+  const auto Tr = entries.matrix<3, 4>("Tr");
+  Pose T_camera_0_vehicle = Pose::Identity();
+  T_camera_0_vehicle.linear() = nearest_rotation(Tr.leftCols<3>());
+  T_camera_0_vehicle.translation() = Tr.col(3);
+  Calibration calibration;
+  for (int number = 0; number < 4; ++number) {
+    const std::string name = "P" + std::to_string(number);
+    if (!entries.has(name)) continue;
+    calibration.cameras[number] =
+        camera_from(entries.matrix<3, 4>(name), number, T_camera_0_vehicle);
   }
   return calibration;
 }

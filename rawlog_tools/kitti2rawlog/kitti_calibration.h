@@ -17,8 +17,8 @@ using CalibrationFile = std::map<std::string, std::vector<double>>;
 /// @throw std::runtime_error the file cannot be read.
 [[nodiscard]] CalibrationFile read_calibration_file(const std::string& path);
 
-/// The rig of one recording day. The vehicle frame is that of the OXTS unit: +X forward, +Y left,
-/// +Z up.
+/// A rig. The vehicle frame of the raw layout is that of the OXTS unit, that of the odometry layout
+/// the LiDAR's: +X forward, +Y left, +Z up.
 struct Calibration {
   Pose T_vehicle_lidar = Pose::Identity();
   std::map<int, Camera>
@@ -28,5 +28,10 @@ struct Calibration {
 /// @brief Reads `calib_imu_to_velo.txt`, `calib_velo_to_cam.txt` and `calib_cam_to_cam.txt`.
 /// @throw std::runtime_error with file and entry: missing or malformed.
 [[nodiscard]] Calibration read_calibration(const std::string& folder);
+
+/// @brief Reads an odometry sequence's `calib.txt`: `P0` to `P3` and `Tr`, from the LiDAR to
+/// camera 0. It knows no picture sizes: they are 0.
+/// @throw std::runtime_error as above.
+[[nodiscard]] Calibration read_sequence_calibration(const std::string& path);
 
 }  // namespace lidar_upsampling::kitti

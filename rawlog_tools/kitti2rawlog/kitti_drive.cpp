@@ -2,6 +2,7 @@
 // Copyright (c) 2026, the lidar_upsampling authors
 #include "kitti2rawlog/kitti_drive.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
@@ -34,28 +35,11 @@ std::int64_t ticks_of_fraction(std::string digits) {
                            "' is no time stamp");
 }
 
-std::vector<std::optional<Stamp>> read_stamps(const std::string& path) {
-  std::ifstream in(path);
-  if (!in) throw std::runtime_error("cannot read the time stamps " + path);
-  std::vector<std::optional<Stamp>> stamps;
-  for (std::string line; std::getline(in, line);) {
-    line.erase(line.find_last_not_of(" \r\t") + 1);
-    const auto stamp = parse_stamp(line);
-    if (!stamp && !line.empty()) {
-      throw_bad_stamp(path, stamps.size() + 1, line);
-    }
-    stamps.push_back(stamp);
-  }
-  return stamps;
-}
-
-std::optional<std::string> find_file(const fs::path& folder, int number,
-                                     const std::vector<std::string>& extensions) {
-  char name[16];
-  std::snprintf(name, sizeof name, "%010d", number);
-  for (const std::string& extension : extensions) {
-    fs::path path = folder / name;
-    path += extension;
+std::optional<std::string> find_file(const fs::path& folder, int number, const FileNames& names) {
+  std::string stem = std::to_string(number);
+  stem.insert(0, names.digits - std::min(names.digits, stem.size()), '0');
+  for (const std::string& extension : names.extensions) {
+    const fs::path path = folder / (stem + extension);
     if (fs::is_regular_file(path)) return path.string();
   }
   return std::nullopt;
@@ -83,13 +67,27 @@ std::optional<Stamp> parse_stamp(const std::string& text) {
   return Stamp(mrpt::Clock::duration(seconds * 10'000'000 + ticks_of_fraction(fraction)));
 }
 
-SensorFolder list_frames(const std::string& folder, const std::vector<std::string>& extensions,
-                         int first, int last) {
-  const auto stamps = read_stamps(folder + "/timestamps.txt");
+FrameStamps read_stamps(const std::string& path) {
+  std::ifstream in(path);
+  if (!in) throw std::runtime_error("cannot read the time stamps " + path);
+  FrameStamps stamps;
+  for (std::string line; std::getline(in, line);) {
+    line.erase(line.find_last_not_of(" \r\t") + 1);
+    const auto stamp = parse_stamp(line);
+    if (!stamp && !line.empty()) {
+      throw_bad_stamp(path, stamps.size() + 1, line);
+    }
+    stamps.push_back(stamp);
+  }
+  return stamps;
+}
+
+SensorFolder list_frames(const std::string& folder, const FrameStamps& stamps,
+                         const FileNames& names, const FrameRange& range) {
   SensorFolder list;
   const int end = static_cast<int>(stamps.size());
-  for (int number = first; number <= last; ++number) {
-    const auto file = find_file(folder + "/data", number, extensions);
+  for (int number = range.first; number <= range.last; ++number) {
+    const auto file = find_file(folder, number, names);
     const bool promised = number < end && stamps[static_cast<std::size_t>(number)];
     if (number >= end && !file) break;
     if (file && promised) {

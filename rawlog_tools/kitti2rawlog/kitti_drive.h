@@ -27,11 +27,27 @@ struct SensorFolder {
   std::vector<int> missing;  ///< numbers with a time stamp and no file, or a file and no time stamp
 };
 
-/// @brief Lists `<folder>/data/<10 digits><one of the extensions>`, with the stamps in
-/// `<folder>/timestamps.txt`, for frames within [first, last].
-/// @throw std::runtime_error no time stamps, or a line among them that is none.
-[[nodiscard]] SensorFolder list_frames(const std::string& folder,
-                                       const std::vector<std::string>& extensions, int first,
-                                       int last);
+/// Of a sensor's files: zero-padded frame numbers, and one of the extensions.
+struct FileNames {
+  std::size_t digits = 10;
+  std::vector<std::string> extensions;
+};
+
+/// The first and last frame that is wanted.
+struct FrameRange {
+  int first = 0;
+  int last = 0;
+};
+
+/// The stamp of each frame, by its number; none for a frame that was not taken.
+using FrameStamps = std::vector<std::optional<Stamp>>;
+
+/// @brief The lines of a timestamps.txt. @throw std::runtime_error it cannot be read, or a line
+/// that is no time stamp.
+[[nodiscard]] FrameStamps read_stamps(const std::string& path);
+
+/// Lists `<folder>/<number><one of the extensions>`.
+[[nodiscard]] SensorFolder list_frames(const std::string& folder, const FrameStamps& stamps,
+                                       const FileNames& names, const FrameRange& range);
 
 }  // namespace lidar_upsampling::kitti

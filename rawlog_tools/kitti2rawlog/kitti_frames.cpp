@@ -3,8 +3,6 @@
 #include "kitti2rawlog/kitti_frames.h"
 
 #include <fstream>
-#include <opencv2/imgcodecs.hpp>
-#include <opencv2/imgproc.hpp>
 #include <stdexcept>
 
 #include "kitti2rawlog/hdl64_rings.h"
@@ -43,27 +41,6 @@ LidarScan read_scan(const Frame& frame, const Pose& T_vehicle_lidar) {
   }
   derive_rings(scan);
   return scan;
-}
-
-CameraImage read_image(const Frame& frame, const Camera& camera) {
-  const cv::Mat pixels = cv::imread(frame.path, cv::IMREAD_ANYCOLOR);
-  if (pixels.empty()) throw std::runtime_error(frame.path + " holds no picture");
-  if (pixels.cols != camera.model.width || pixels.rows != camera.model.height) {
-    throw std::runtime_error(
-        frame.path + " has " + std::to_string(pixels.cols) + " x " + std::to_string(pixels.rows) +
-        " pixels, its calibration says " + std::to_string(camera.model.width) + " x " +
-        std::to_string(camera.model.height) + ": not of the same day, or not rectified");
-  }
-  CameraImage image;
-  image.stamp = frame.stamp;
-  image.camera = camera;
-  if (pixels.channels() == 1) {
-    image.gray = pixels;
-  } else {
-    image.bgr = pixels;
-    cv::cvtColor(pixels, image.gray, cv::COLOR_BGR2GRAY);
-  }
-  return image;
 }
 
 Pose OxtsReader::T_world_vehicle(const std::string& path) {

@@ -16,9 +16,6 @@ namespace lidar_upsampling::kitti {
 /// @throw std::runtime_error the file cannot be read, or does not hold whole points.
 [[nodiscard]] LidarScan read_scan(const Frame& frame, const Pose& T_vehicle_lidar);
 
-/// @throw std::runtime_error the file holds no picture, or one of another size than calibrated.
-[[nodiscard]] CameraImage read_image(const Frame& frame, const Camera& camera);
-
 /// @brief Turns OXTS records into poses. The world is East-North-Up, its origin at the first
 /// record.
 class OxtsReader {

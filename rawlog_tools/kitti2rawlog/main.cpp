@@ -1,149 +1,108 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the lidar_upsampling authors
 
-// Turns a drive in KITTI's raw layout into a log: scans LIDAR, images CAM0 to CAM3, poses OXTS.
-#include <mrpt/obs/CObservationRobotPose.h>
-
-#include <algorithm>
-#include <filesystem>
+// Turns a drive in KITTI's raw layout, or a sequence in its odometry layout, into a log: scans
+// LIDAR, images CAM0 to CAM3, poses OXTS or POSES; and a drive's tracklets into boxes and truth.
 #include <iostream>
-#include <limits>
+#include <optional>
 
 #include "common/tool_main.h"
-#include "kitti2rawlog/kitti_calibration.h"
-#include "kitti2rawlog/kitti_drive.h"
-#include "kitti2rawlog/kitti_frames.h"
-#include "lidar_upsampling/io/carriers.h"
-#include "lidar_upsampling/io/images.h"
-#include "lidar_upsampling/io/rawlog_stream.h"
-
-namespace fs = std::filesystem;
+#include "kitti2rawlog/kitti_recording.h"
 
 namespace lidar_upsampling::kitti {
 namespace {
 
 struct Options {
-  std::string drive;
+  std::string drive, sequence;  // one of them
   std::string output;
-  std::vector<int> cameras = {2};
-  int first = 0;
-  int last = std::numeric_limits<int>::max() - 1;
+  Selection selection;
+  importing::LabelPaths labels;
   bool overwrite = false;
 };
 
-// Makes the observation of one frame; frames of all sensors are put in the order of their stamps.
-using MakeObservation = std::function<mrpt::obs::CObservation::Ptr(const Frame&)>;
-struct TimedFrame {
-  Frame frame;
-  const MakeObservation* make;
-};
-
-struct Sensor {
-  std::string folder;  // below the drive's
-  std::vector<std::string> extensions;
-  MakeObservation make;
-};
-
-mrpt::obs::CObservation::Ptr pose_observation(const Frame& frame, OxtsReader& oxts) {
-  const auto observation = mrpt::obs::CObservationRobotPose::Create();
-  observation->timestamp = frame.stamp;
-  observation->sensorLabel = "OXTS";
-  observation->pose.mean = to_mrpt(oxts.T_world_vehicle(frame.path));
-  return observation;
+void report(const std::string& folder, const SensorFrames& sensor) {
+  const SensorFolder& files = sensor.files;
+  if (!files.missing.empty()) {
+    std::cerr << "kitti2rawlog: warning: " << sensor.name << ": " << files.missing.size() << " of "
+              << files.missing.size() + files.frames.size() << " frames missing, from "
+              << files.missing.front() << " to " << files.missing.back() << ": skipped\n";
+  }
+  if (files.frames.empty()) {
+    throw std::runtime_error("no frame of " + folder + "/" + sensor.name +
+                             " is there, or none within --first and --last");
+  }
+  std::cout << sensor.name << ": " << files.frames.size() << " frames\n";
 }
 
-std::vector<Sensor> sensors_of(const Options& options, const Calibration& calibration,
-                               OxtsReader& oxts) {
-  std::vector<Sensor> sensors;
-  sensors.push_back({"velodyne_points", {".bin"}, [&calibration](const Frame& frame) {
-                       return observation_from_scan(read_scan(frame, calibration.T_vehicle_lidar),
-                                                    Carrier::automatic);
-                     }});
-  for (const int number : options.cameras) {
-    const auto camera = calibration.cameras.find(number);
-    if (camera == calibration.cameras.end()) {
-      throw std::runtime_error("no calibration of camera " + std::to_string(number));
-    }
-    sensors.push_back({"image_0" + std::to_string(number),
-                       {".png", ".jpg"},
-                       [&camera = camera->second](const Frame& frame) {
-                         return observation_from_image(read_image(frame, camera));
-                       }});
-  }
-  if (fs::is_directory(options.drive + "/oxts")) {
-    sensors.push_back(
-        {"oxts", {".txt"}, [&oxts](const Frame& frame) { return pose_observation(frame, oxts); }});
-  }
-  return sensors;
-}
-
-void report_missing(const std::string& folder, const SensorFolder& list) {
-  if (list.missing.empty()) return;
-  std::cerr << "kitti2rawlog: warning: " << folder << ": " << list.missing.size() << " of "
-            << list.missing.size() + list.frames.size() << " frames missing, from "
-            << list.missing.front() << " to " << list.missing.back() << ": skipped\n";
-}
-
-std::vector<TimedFrame> frames_in_time_order(const Options& options,
-                                             const std::vector<Sensor>& sensors) {
-  std::vector<TimedFrame> frames;
-  for (const Sensor& sensor : sensors) {
-    const SensorFolder list = list_frames(options.drive + "/" + sensor.folder, sensor.extensions,
-                                          options.first, options.last);
-    report_missing(sensor.folder, list);
-    if (list.frames.empty()) {
-      throw std::runtime_error("no frame of " + options.drive + "/" + sensor.folder +
-                               " is there, or none within --first and --last");
-    }
-    for (const Frame& frame : list.frames) frames.push_back({frame, &sensor.make});
-    std::cout << sensor.folder << ": " << list.frames.size() << " frames\n";
-  }
-  std::stable_sort(frames.begin(), frames.end(), [](const TimedFrame& a, const TimedFrame& b) {
-    return a.frame.stamp < b.frame.stamp;
-  });
-  return frames;
+Recording open_recording(const Options& options) {
+  const std::string& folder = options.drive.empty() ? options.sequence : options.drive;
+  Recording recording = options.drive.empty() ? open_sequence(folder, options.selection)
+                                              : open_drive(folder, options.selection);
+  report(folder, recording.scans);
+  for (const CameraFrames& sensor : recording.cameras) report(folder, sensor.pictures);
+  if (!recording.pose_frames.name.empty()) report(folder, recording.pose_frames);
+  return recording;
 }
 
 void convert(const Options& options) {
-  if (!fs::is_directory(options.drive)) {
-    throw std::runtime_error("there is no folder " + options.drive);
-  }
-  // The day's calibration lies one folder up.
-  const fs::path day = fs::canonical(options.drive).parent_path();
-  const Calibration calibration = read_calibration(day.string());
-  OxtsReader oxts;
-  const std::vector<Sensor> sensors = sensors_of(options, calibration, oxts);
   RawlogWriter writer(options.output, options.overwrite);
-  const std::vector<TimedFrame> frames = frames_in_time_order(options, sensors);
+  Recording recording = open_recording(options);
+  std::optional<importing::LabelFiles> labels;
+  if (options.labels.any()) {
+    labels.emplace(options.labels);
+    add_tracks(recording, options.drive);
+    labels->write(labels_of(recording));
+  }
   {
     Progress progress("converting");
-    for (const TimedFrame& timed : frames) {
-      writer.write(*(*timed.make)(timed.frame));
-      progress(static_cast<double>(writer.num_written()) / static_cast<double>(frames.size()));
-    }
+    importing::write_items(writer, items_of(recording), std::ref(progress));
   }
+  if (labels) labels->commit();
   writer.commit();
+  if (labels) {
+    std::cout << recording.tracks.size() << " objects, " << labels->num_boxes() << " boxes\n";
+  }
   std::cout << writer.num_written() << " observations in " << options.output << "\n";
+}
+
+void add_options(CLI::App& app, Options& options) {
+  auto* const source = app.add_option_group("input");
+  source->add_option("--drive", options.drive,
+                     "Folder of a drive in the raw layout, the calibration files one up");
+  auto* const sequence = source->add_option(
+      "--sequence", options.sequence,
+      "Folder <root>/sequences/NN in the odometry layout, poses in <root>/poses/NN.txt");
+  source->require_option(1);
+  app.add_option("--output", options.output, "The log to write")->required();
+  app.add_option("--cameras", options.selection.cameras, "KITTI's camera numbers, as 2 or 0,1,2,3")
+      ->delimiter(',')
+      ->check(CLI::Range(0, 3))
+      ->capture_default_str();
+  FrameRange& frames = options.selection.frames;
+  app.add_option("--first", frames.first, "First frame")->check(CLI::Range(0, 1000000000));
+  app.add_option("--last", frames.last, "Last frame, included")->check(CLI::Range(0, 1000000000));
+  app.add_option("--boxes", options.labels.boxes,
+                 "Detections CSV to make from the drive's tracklet_labels.xml")
+      ->excludes(sequence);
+  app.add_option("--truth-objects", options.labels.truth_objects,
+                 "Truth table ..._objects.csv to make from it, ..._ego.csv beside")
+      ->excludes(sequence);
+  app.add_flag("--overwrite", options.overwrite, "Replace existing outputs");
 }
 
 }  // namespace
 }  // namespace lidar_upsampling::kitti
 
 int main(int argc, char** argv) {
-  lidar_upsampling::kitti::Options options;
+  using namespace lidar_upsampling;  // NOLINT(google-build-using-namespace)
+  kitti::Options options;
   CLI::App app(
-      "Turns a drive in KITTI's raw layout into a log. The vehicle frame is that of the OXTS unit.",
+      "Turns a drive or sequence in one of KITTI's layouts into a log. The vehicle frame is that "
+      "of the OXTS unit, in the odometry layout that of the LiDAR.",
       "kitti2rawlog");
-  app.add_option("--drive", options.drive, "Folder of the drive, the calibration files one up")
-      ->required();
-  app.add_option("--output", options.output, "The log to write")->required();
-  app.add_option("--cameras", options.cameras, "KITTI's camera numbers, as 2 or 0,1,2,3")
-      ->delimiter(',')
-      ->check(CLI::Range(0, 3))
-      ->capture_default_str();
-  app.add_option("--first", options.first, "First frame")->check(CLI::Range(0, 1000000000));
-  app.add_option("--last", options.last, "Last frame, included")->check(CLI::Range(0, 1000000000));
-  app.add_flag("--overwrite", options.overwrite, "Replace an existing output");
-  return lidar_upsampling::run_tool(app, argc, argv,
-                                    [&] { lidar_upsampling::kitti::convert(options); });
+  kitti::add_options(app, options);
+  return run_tool(app, argc, argv, [&] {
+    options.labels.overwrite = options.overwrite;
+    kitti::convert(options);
+  });
 }
