@@ -10,15 +10,10 @@
 #include <opencv2/imgproc.hpp>
 
 #include "lidar_upsampling/objects/anchored_scan.h"
-#include "lidar_upsampling/objects/object_motion.h"
 #include "lidar_upsampling/objects/object_points.h"
 
 namespace lidar_upsampling {
 namespace {
-
-Pose T_camera_lidar_of(const Camera& camera, const Pose& T_vehicle_lidar) {
-  return camera.T_vehicle_camera.inverse() * T_vehicle_lidar;
-}
 
 Eigen::Vector3d centroid_of(const LidarScan& scan, const std::vector<int>& points) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
@@ -33,22 +28,23 @@ std::vector<Eigen::Vector3f> points_at(const LidarScan& scan, const std::vector<
   return points;
 }
 
-// The motion since the scan before, by registration; the images' answer is where it starts.
-void measure_motions(std::vector<Candidate>& candidates, const PastObjects& past,
+// The motion since the scan that last showed the object, by registration; what was known before is
+// where it starts.
+void measure_motions(std::vector<Candidate>& candidates, const std::map<int, PastObject>& past,
                      const KeyScanView& key) {
-  const double dt = seconds_between(past.stamp, key.scan.stamp);
-  const Pose T_k_before = key.T_rest_lidar_k.inverse() * past.T_rest_lidar;
   tbb::parallel_for(std::size_t{0}, candidates.size(), [&](std::size_t i) {
     Candidate& candidate = candidates[i];
-    const auto before = past.points.find(candidate.track_id);
-    if (before == past.points.end()) return;
-    ObjectScans scans{before->second, points_at(key.scan, candidate.points), T_k_before,
-                      Pose::Identity(), dt};
+    const auto found = past.find(candidate.track_id);
+    if (found == past.end()) return;
+    const PastObject& before = found->second;
+    const Pose T_k_before = key.T_rest_lidar_k.inverse() * before.T_rest_lidar;
+    ObjectScans scans{before.points, points_at(key.scan, candidate.points), T_k_before,
+                      Pose::Identity(), seconds_between(before.stamp, key.scan.stamp)};
     if (candidate.known) {
       const Eigen::Vector3d centroid = T_k_before.inverse() * candidate.centroid;
-      scans.T_mov_guess =
-          exp_se3(Twist(dt * rate_over_ground(*candidate.known,
-                                              past.T_rest_lidar.linear().transpose(), centroid)));
+      scans.T_mov_guess = exp_se3(
+          Twist(scans.dt * rate_over_ground(*candidate.known,
+                                            before.T_rest_lidar.linear().transpose(), centroid)));
     }
     if (const auto measured =
             measure_between_scans(scans, key.scan.stamp, key.T_rest_lidar_k.linear()))
@@ -92,10 +88,17 @@ std::vector<Candidate> find_candidates(CameraView& view, const Picture& anchor,
   return candidates;
 }
 
-void remember(PastObjects& past, const KeyScanView& key, const std::vector<Candidate>& candidates) {
-  past = {key.scan.stamp, key.T_rest_lidar_k, {}};
+// Objects that one scan misses are looked for in the next ones.
+void remember(std::map<int, PastObject>& past, const KeyScanView& key,
+              const std::vector<Candidate>& candidates) {
+  constexpr double kForgetAfter_s = 0.7;
+  for (auto object = past.begin(); object != past.end();)
+    object = seconds_between(object->second.stamp, key.scan.stamp) > kForgetAfter_s
+                 ? past.erase(object)
+                 : std::next(object);
   for (const Candidate& candidate : candidates)
-    past.points[candidate.track_id] = points_at(key.scan, candidate.points);
+    past[candidate.track_id] = {key.scan.stamp, key.T_rest_lidar_k,
+                                points_at(key.scan, candidate.points)};
 }
 
 void add_static_points(PointTracks& tracks, const AnchoredScan& anchored,
@@ -130,29 +133,11 @@ std::vector<cv::Point2f> predict_pixels(const CameraView& view, const Pose& T_ca
   return pixels;
 }
 
-Box2d box_of(const CameraModel& camera, const LidarScan& scan, const std::vector<int>& points,
-             const Pose& T_camera_t_lidar_k) {
-  Box2d box{1e9, 1e9, -1e9, -1e9};
-  for (const int i : points) {
-    const auto pixel = project(camera, T_camera_t_lidar_k * scan.points[i].cast<double>());
-    if (!pixel) continue;
-    box.left = std::min(box.left, pixel->x());
-    box.right = std::max(box.right, pixel->x());
-    box.top = std::min(box.top, pixel->y());
-    box.bottom = std::max(box.bottom, pixel->y());
-  }
-  return box.right < box.left ? Box2d{} : box;
-}
-
-// The points were put on the anchor picture under `rate`; what was found is the motion since then,
-// so the part between scan and anchor follows from it at constant velocity.
-Pose over_whole_interval(const Pose& T_mov, const Twist& rate, double anchor_dt, double dt) {
-  if (anchor_dt == 0 || dt - anchor_dt <= 0) return T_mov;
-  const Pose since_anchor = T_mov * exp_se3(Twist(rate * anchor_dt)).inverse();
-  return exp_se3(Twist(log_se3(since_anchor) * (dt / (dt - anchor_dt))));
-}
-
 }  // namespace
+
+Pose T_camera_lidar_of(const Camera& camera, const Pose& T_vehicle_lidar) {
+  return camera.T_vehicle_camera.inverse() * T_vehicle_lidar;
+}
 
 void start_view(CameraView& view, std::shared_ptr<const Picture> anchor, const KeyScanView& key,
                 const Pose& T_lidar_a_lidar_k, const std::map<int, KnownMotion>& known,
@@ -202,42 +187,6 @@ void follow_view(CameraView& view, const Picture& picture, const LidarScan& key_
   const double dt = seconds_between(key_scan.stamp, picture.instant);
   follow_points(view.points, view.anchor->pyramid, picture.pyramid,
                 predict_pixels(view, T_camera_t_lidar_k, dt), config.klt);
-}
-
-std::vector<ObjectMotion> estimate_motions(CameraView& view, const Picture& picture,
-                                           const LidarScan& key_scan, const Pose& T_lidar_t_lidar_k,
-                                           const Config& config) {
-  MotionQuery query;
-  query.camera = view.camera.model;
-  query.T_camera_lidar = T_camera_lidar_of(view.camera, key_scan.T_vehicle_lidar);
-  query.T_lidar_t_lidar_k = T_lidar_t_lidar_k;
-  query.dt = seconds_between(key_scan.stamp, picture.instant);
-
-  std::vector<ObjectMotion> motions(view.candidates.size());
-  tbb::parallel_for(std::size_t{0}, motions.size(), [&](std::size_t i) {
-    Candidate& candidate = view.candidates[i];
-    MotionQuery own = query;
-    own.centroid_lidar_k = candidate.centroid;
-    if (candidate.known) own.known_evidence = evidence_of_motion(*candidate.known);
-    own.prior = expect_motion(candidate.known, key_scan.stamp, view.R_rest_lidar_k.transpose(),
-                              candidate.centroid, query.dt, config.object_motion.prior);
-    ObjectMotion& motion = motions[i];
-    motion = estimate_object_motion(correspondences_of(view.points, static_cast<int>(i)), own,
-                                    config.object_motion);
-    if (motion.status == MotionStatus::moving) {
-      const Pose T_mov =
-          over_whole_interval(motion.T_mov, candidate.rate, view.anchor_dt, query.dt);
-      set_motion(motion, T_lidar_t_lidar_k * T_mov, own);
-      candidate.rate = log_se3(T_mov) / query.dt;
-    }
-    motion.track_id = candidate.track_id;
-    motion.class_name = candidate.detection.class_name;
-    motion.camera_label = view.camera.label;
-    motion.points = candidate.points;
-    motion.box = box_of(query.camera, key_scan, candidate.points,
-                        query.T_camera_lidar * motion.T_lidar_t_lidar_k);
-  });
-  return motions;
 }
 
 }  // namespace lidar_upsampling

@@ -36,11 +36,11 @@ struct Candidate {
       Twist::Zero();  ///< motion over ground per second, in the lidar frame at k, as last estimated
 };
 
-/// The objects of the scan before, for their motion from scan to scan.
-struct PastObjects {
+/// An object as the last scan that showed it did, for its motion from scan to scan.
+struct PastObject {
   Stamp stamp;
   Pose T_rest_lidar;
-  std::map<int, std::vector<Eigen::Vector3f>> points;  ///< by track id, lidar frame then
+  std::vector<Eigen::Vector3f> points;  ///< lidar frame then
 };
 
 /// The key scan as the steps of every camera need it.
@@ -63,9 +63,11 @@ struct CameraView {
   double anchor_dt = 0;  ///< s from the key scan to the anchor
   std::vector<Candidate> candidates;
   PointTracks points;
-  PastObjects past;
+  std::map<int, PastObject> past;  ///< by track id
   Eigen::Matrix3d R_rest_lidar_k = Eigen::Matrix3d::Identity();
 };
+
+[[nodiscard]] Pose T_camera_lidar_of(const Camera& camera, const Pose& T_vehicle_lidar);
 
 /// @brief Puts the key scan on the anchor picture: object candidates found, tracked from scan to
 /// scan, their points and static ones chosen to be followed (paper, "Object Detection and

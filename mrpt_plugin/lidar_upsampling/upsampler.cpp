@@ -163,6 +163,9 @@ void LidarUpsampler::start(CameraView& view, const std::shared_ptr<const Picture
   const auto step = ego_motion_.step(key_->scan.stamp, anchor->instant);
   start_view(view, anchor, {key_->scan, *key_->segments, key_->T_rest_lidar_k},
              ego_step(anchor->instant).T_to_from, known_motions_, !step, *detector_, config_);
+  // Where neither the next picture nor the next scan tells, this is what there is.
+  for (const Candidate& candidate : view.candidates)
+    if (candidate.known) known_motions_[candidate.track_id] = *candidate.known;
 }
 
 void LidarUpsampler::process(CameraView& view, const Picture& picture) {

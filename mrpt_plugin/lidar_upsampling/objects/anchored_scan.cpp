@@ -6,9 +6,7 @@
 #include <cmath>
 
 namespace lidar_upsampling {
-namespace {
 
-// Half the distance to the next ring and azimuth step on the picture, with some room.
 Neighbourhood sampling_of(const LidarScan& scan, const CameraModel& camera) {
   Neighbourhood result;
   if (scan.num_rings < 2 || scan.ring.empty()) return result;
@@ -25,8 +23,6 @@ Neighbourhood sampling_of(const LidarScan& scan, const CameraModel& camera) {
     result.half_width_px = std::clamp(2.6 * camera.fx * 2 * M_PI / scan.num_columns, 3., 30.);
   return result;
 }
-
-}  // namespace
 
 AnchoredScan anchor_scan(const LidarScan& scan, const CameraModel& camera,
                          const Pose& T_camera_lidar_a) {

@@ -18,6 +18,9 @@ struct AnchoredScan {
   std::vector<int> position;                  ///< of each point of the scan, in `points`, or -1
 };
 
+/// @brief Half the distance to the next ring and azimuth step on the picture, with some room.
+[[nodiscard]] Neighbourhood sampling_of(const LidarScan& scan, const CameraModel& camera);
+
 /// @brief Projects the scan and marks points behind nearer ones and on depth edges, at the
 /// resolution of the scan's own rings and columns.
 /// @param T_camera_lidar_a lidar frame at k to the camera at the anchor, the ego-motion included.
