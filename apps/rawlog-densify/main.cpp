@@ -1,57 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the lidar_upsampling authors
-#include <mrpt/config/CConfigFileMemory.h>
-
-#include <algorithm>
-#include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <nlohmann/json.hpp>
-#include <sstream>
 #include <stdexcept>
 
 #include "common/tool_main.h"
 #include "densify.h"
+#include "job_settings.h"
 
 namespace {
 
 using namespace lidar_upsampling;  // NOLINT(google-build-using-namespace)
-
-// Sections of the INI that belong to us; a file may hold other programs' sections too, but of its
-// keys one that is given by --set must be known.
-void set_key(mrpt::config::CConfigFileMemory& config, const std::string& assignment) {
-  const auto equals = assignment.find('=');
-  if (equals == std::string::npos || equals == 0)
-    throw std::runtime_error("--set " + assignment +
-                             ": expected name=value, or section.name=value");
-  const std::string name = assignment.substr(0, equals);
-  const auto dot = name.rfind('.');
-  const std::string section = dot == std::string::npos ? kMainSection : name.substr(0, dot);
-  const std::string key = dot == std::string::npos ? name : name.substr(dot + 1);
-  config.write(section, key, assignment.substr(equals + 1));
-}
-
-std::string read_file(const std::string& path) {
-  std::ifstream file(path);
-  std::ostringstream text;
-  text << file.rdbuf();
-  if (!file) throw std::runtime_error(path + ": cannot read this settings file");
-  return text.str();
-}
-
-void load_settings(DensifyJob& job, const std::string& path, const std::vector<std::string>& sets,
-                   const std::string& detections) {
-  mrpt::config::CConfigFileMemory config;
-  if (!path.empty()) config.setContent(read_file(path));
-  for (const std::string& assignment : sets) set_key(config, assignment);
-  if (!detections.empty()) {
-    config.write("detector", "type", std::string("csv"));
-    config.write("detector", "boxes", detections);
-  }
-  check_sections(config);
-  job.config.loadFromConfigFile(config, kMainSection);
-  job.rig = load_rig_overrides(config);
-}
 
 void write_report(const DensifyReport& report, const std::string& path) {
   std::ofstream file(path);

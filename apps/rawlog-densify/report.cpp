@@ -5,7 +5,9 @@
 #include <mrpt/core/Clock.h>
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
+#include <numeric>
 #include <sstream>
 
 namespace lidar_upsampling {
@@ -14,7 +16,7 @@ namespace {
 double quantile(std::vector<double> values, double share) {
   if (values.empty()) return 0;
   const auto position =
-      static_cast<std::size_t>(share * static_cast<double>(values.size() - 1) + 0.5);
+      static_cast<std::size_t>(std::lround(share * static_cast<double>(values.size() - 1)));
   std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(position),
                    values.end());
   return values[position];
@@ -63,7 +65,11 @@ void DensifyReport::add(const VirtualScan& scan, bool keep_rows) {
     rows.push_back({scan.scan.stamp, object.points.size(), object});
     rows.back().object.points = {};
   }
-  for (const StageTime& time : scan.timing) {
+  add(scan.timing);
+}
+
+void DensifyReport::add(const std::vector<StageTime>& times) {
+  for (const StageTime& time : times) {
     if (stage_ms.find(time.stage) == stage_ms.end()) stage_order.emplace_back(time.stage);
     stage_ms[time.stage].push_back(time.ms);
   }
@@ -94,7 +100,8 @@ nlohmann::json to_json(const DensifyReport& report) {
     json["stages"].push_back({{"stage", stage},
                               {"runs", times.size()},
                               {"median_ms", quantile(times, 0.5)},
-                              {"p95_ms", quantile(times, 0.95)}});
+                              {"p95_ms", quantile(times, 0.95)},
+                              {"total_ms", std::accumulate(times.begin(), times.end(), 0.)}});
   }
   for (const DensifyReport::Row& row : report.rows) json["objects"].push_back(row_json(row));
   return json;

@@ -34,11 +34,12 @@ struct DensifyReport {
   std::vector<Row> rows;
 
   void add(const VirtualScan& scan, bool keep_rows);
+  void add(const std::vector<StageTime>& times);
   void warn(const std::string& text);
 };
 
-/// @brief Everything, for programs: counts, median and p95 of each stage, a row per object and
-/// image.
+/// @brief Everything, for programs: counts, each stage's median, p95 and total, a row per object
+/// and image.
 [[nodiscard]] nlohmann::json to_json(const DensifyReport& report);
 
 /// @brief A screenful for people.

@@ -2,140 +2,128 @@
 // Copyright (c) 2026, the lidar_upsampling authors
 #include <tbb/parallel_for.h>
 
-#include <numeric>
-
+#include "clouds.h"
+#include "estimates.h"
 #include "evaluation.h"
-#include "lidar_upsampling/metrics/scan_motion.h"
-#include "lidar_upsampling/objects/ground.h"
 #include "lidar_upsampling/registration/scan_registration.h"
 
 namespace lidar_upsampling {
 
 namespace {
 
-using Points = std::vector<Eigen::Vector3f>;
-
-/// The virtual scan as recover_motion() wants it; its surface is only made if beams do not tell the
-/// points.
-struct VirtualPoints {
-  std::vector<int> matches;
-  Surface surface;
-};
-
-VirtualPoints prepare(const ScanTriple& scans) {
-  std::vector<int> matches = match_by_beam(scans.key, scans.virtual_scan);
-  Points standing;
-  if (matches.empty()) {
-    const Ground ground = estimate_ground(scans.virtual_scan);
-    for (std::size_t i = 0; i < scans.virtual_scan.size(); ++i)
-      if (ground.is_ground.empty() || ground.is_ground[i] == 0)
-        standing.push_back(scans.virtual_scan.points[i]);
-  }
-  return {std::move(matches), make_surface(std::move(standing))};
+/// T_camera_lidar of the first camera that sees the point, of the first one if none does.
+std::optional<Pose> viewing_camera(const std::vector<Camera>& cameras, const LidarScan& scan,
+                                   const Eigen::Vector3d& point_in_lidar) {
+  if (cameras.empty()) return {};
+  const Camera* viewing = &cameras.front();
+  for (const Camera& camera : cameras)
+    if (in_view(camera, scan, point_in_lidar)) {
+      viewing = &camera;
+      break;
+    }
+  return viewing->T_vehicle_camera.inverse() * scan.T_vehicle_lidar;
 }
 
-/// One object's motion according to each row.
-std::array<std::optional<Pose>, kRows.size()> estimates_of(const ObjectReference& object,
-                                                           const ScanTriple& scans,
-                                                           const VirtualPoints& points,
-                                                           const Pose& T_ego) {
-  const auto ours =
-      recover_motion(scans.key, scans.virtual_scan, object.points, points.matches, points.surface,
-                     {T_ego, Pose::Identity(), object.motion.T_lidar_t_lidar_k});
-  return {ours, Pose::Identity(), T_ego};
+ObjectError error_of(const ReferenceMotion& object, const Pose& estimate,
+                     const std::optional<Pose>& T_camera_lidar, double dt) {
+  ObjectError error;
+  error.position_m = position_error(object, estimate);
+  error.velocity_mps = velocity_error(object, estimate, dt);
+  error.yaw_rad = yaw_error(object, estimate);
+  if (T_camera_lidar) error.depth_share = depth_error(object, estimate, *T_camera_lidar);
+  return error;
 }
 
 std::vector<ObjectResult> evaluate_objects(std::vector<ObjectReference> references,
-                                           const ScanTriple& scans, const VirtualPoints& points,
-                                           const Pose& T_ego) {
+                                           const RowSources& sources,
+                                           const std::vector<Camera>& cameras, double dt) {
   std::vector<ObjectResult> results(references.size());
   tbb::parallel_for(std::size_t{0}, references.size(), [&](std::size_t i) {
-    results[i].object = std::move(references[i]);
-    if (!results[i].object.excluded.empty()) return;
-    const auto estimates = estimates_of(results[i].object, scans, points, T_ego);
-    for (std::size_t row = 0; row < kRows.size(); ++row)
-      if (estimates[row])
-        results[i].error_m[row] = position_error(results[i].object.motion, *estimates[row]);
+    ObjectResult& result = results[i];
+    result.object = std::move(references[i]);
+    if (!result.object.excluded.empty()) return;
+    result.estimates = estimates_of(result.object, sources);
+    const ReferenceMotion& motion = result.object.motion;
+    const auto T_camera_lidar = viewing_camera(cameras, sources.scans.reference,
+                                               motion.T_lidar_t_lidar_k * motion.centroid_k);
+    for (const Row row : kRows)
+      if (row != Row::oracle && result.estimates[row])
+        result.errors[row] = error_of(motion, *result.estimates[row], T_camera_lidar, dt);
   });
   return results;
 }
 
-Points moved(const Points& points, const Pose& T) {
-  Points result;
-  result.reserve(points.size());
-  for (const auto& point : points) result.emplace_back((T * point.cast<double>()).cast<float>());
-  return result;
-}
-
-Points seen_only(const Points& points, const LidarScan& scan, const std::vector<Camera>& cameras) {
-  Points result;
-  for (const auto& point : points)
-    if (in_view(cameras, scan, point.cast<double>())) result.push_back(point);
-  return result;
-}
-
-std::array<Points, kRows.size()> clouds_of(const ScanTriple& scans, const Pose& T_ego) {
-  return {scans.virtual_scan.points, scans.key.points, moved(scans.key.points, T_ego)};
-}
-
-void evaluate_clouds(const ScanTriple& scans, const Pose& T_ego, const std::vector<Camera>& cameras,
-                     ScanResult& result) {
-  const Points seen = seen_only(scans.reference.points, scans.reference, cameras);
-  const auto clouds = clouds_of(scans, T_ego);
-  for (std::size_t row = 0; row < kRows.size(); ++row) {
-    if (clouds[row].empty() || scans.reference.points.empty()) continue;
-    CloudResult cloud{compute_chamfer(clouds[row], scans.reference.points), std::nullopt};
-    const Points own_seen = seen_only(clouds[row], scans.key, cameras);
-    if (!seen.empty() && !own_seen.empty()) cloud.in_view = compute_chamfer(own_seen, seen);
-    result.clouds[row] = cloud;
-  }
+/// A point of the key scan where a row puts it; none if the row does not tell.
+std::optional<Eigen::Vector3d> moved_point(Row row, int i, const RowSources& sources,
+                                           const ObjectResult* object) {
+  const auto matched = [&](const MovedScan& moved) -> std::optional<Eigen::Vector3d> {
+    if (moved.matches.empty() || moved.matches[i] < 0) return {};
+    return moved.scan->points[moved.matches[i]].cast<double>();
+  };
+  if (row == Row::ours) return matched(sources.ours);
+  if (row == Row::paper && sources.paper) return matched(*sources.paper);
+  const Eigen::Vector3d key = sources.scans.key.points[i].cast<double>();
+  if (row == Row::hold) return key;
+  if (row == Row::ego) return sources.T_ego * key;
+  if (row != Row::constant_velocity) return {};
+  return (object && object->estimates[row] ? *object->estimates[row] : sources.T_ego) * key;
 }
 
 /// Every point of a moving object counts, so that one in many pieces weighs no more than one in
 /// one.
-void evaluate_moving_points(const ScanTriple& scans, const std::vector<int>& matches,
-                            const Pose& T_ego, ScanResult& result) {
-  std::array<double, kRows.size()> sum{};
-  int count = 0;
-  for (const ObjectResult& object : result.objects) {
-    if (!object.object.moving || !object.object.excluded.empty() || matches.empty()) continue;
-    for (const int i : object.object.points) {
-      if (matches[i] < 0) continue;
-      const Eigen::Vector3d key = scans.key.points[i].cast<double>();
-      const Eigen::Vector3d truth = object.object.motion.T_lidar_t_lidar_k * key;
-      sum[0] += (scans.virtual_scan.points[matches[i]].cast<double>() - truth).norm();
-      sum[1] += (key - truth).norm();
-      sum[2] += (T_ego * key - truth).norm();
-      ++count;
+void measure_moving_points(const RowSources& sources, ScanResult& result) {
+  for (const Row row : kRows) {
+    double sum = 0;
+    int count = 0;
+    for (const ObjectResult& object : result.objects) {
+      if (!object.object.moving || !object.object.excluded.empty()) continue;
+      for (const int i : object.object.points) {
+        const auto moved = moved_point(row, i, sources, &object);
+        if (!moved) continue;
+        const Eigen::Vector3d key = sources.scans.key.points[i].cast<double>();
+        sum += (*moved - object.object.motion.T_lidar_t_lidar_k * key).norm();
+        ++count;
+      }
     }
+    if (count > 0) result.moving_points_m[row] = sum / count;
   }
-  for (std::size_t row = 0; row < kRows.size() && count > 0; ++row)
-    result.moving_points_m[row] = sum[row] / count;
 }
 
-/// Mean distance from where the true ego-motion takes the points of all that stands.
-void evaluate_static(const ScanTriple& scans, const std::vector<int>& matches, const Pose& T_ego,
-                     double max_range, ScanResult& result) {
-  std::vector<std::uint8_t> moves(scans.key.size(), 0);
+/// Flow of every point within range, and how far the static scene goes astray: with true boxes
+/// only.
+void measure_flow(const RowSources& sources, double max_range, ScanResult& result) {
+  const LidarScan& key = sources.scans.key;
+  std::vector<const ObjectResult*> owner(key.size(), nullptr);
   for (const ObjectResult& object : result.objects)
-    if (object.object.moving)
-      for (const int i : object.object.points) moves[i] = 1;
-  std::array<double, kRows.size()> sum{};
-  int count = 0;
-  for (std::size_t i = 0; i < matches.size(); ++i) {
-    const Eigen::Vector3d key = scans.key.points[i].cast<double>();
-    if (matches[i] < 0 || moves[i] != 0 || key.head<2>().norm() > max_range) continue;
-    const Eigen::Vector3d truth = T_ego * key;
-    sum[0] += (scans.virtual_scan.points[matches[i]].cast<double>() - truth).norm();
-    sum[1] += (key - truth).norm();
-    ++count;
+    for (const int i : object.object.points) owner[i] = &object;
+  for (const Row row : kRows) {
+    std::vector<PointFlow> flows;
+    double sum_static = 0;
+    int num_static = 0;
+    for (int i = 0; i < static_cast<int>(key.size()); ++i) {
+      const Eigen::Vector3d point = key.points[i].cast<double>();
+      if (point.head<2>().norm() > max_range) continue;
+      const auto moved = moved_point(row, i, sources, owner[i]);
+      if (!moved) continue;
+      PointFlow flow;
+      flow.estimated = *moved - point;
+      flow.truth =
+          (owner[i] ? owner[i]->object.motion.T_lidar_t_lidar_k : sources.T_ego) * point - point;
+      if (owner[i])
+        flow.kind =
+            owner[i]->object.moving ? FlowClass::foreground_dynamic : FlowClass::foreground_static;
+      flows.push_back(flow);
+      if (flow.kind == FlowClass::foreground_dynamic) continue;
+      sum_static += (flow.estimated - flow.truth).norm();
+      ++num_static;
+    }
+    if (flows.empty()) continue;
+    result.flow[row] = three_way_epe(flows);
+    if (num_static > 0) result.static_error_m[row] = sum_static / num_static;
   }
-  if (count == 0) return;
-  for (std::size_t row = 0; row < kRows.size(); ++row)
-    result.static_error_m[row] = sum[row] / count;
 }
 
-std::optional<Pose> reference_ego_motion(const ScanTriple& scans, const Truth* truth,
+std::optional<Pose> reference_ego_motion(const ScanSet& scans, const Truth* truth,
                                          const Pose& guess) {
   if (truth) return true_ego_motion(*truth, scans.key, scans.virtual_scan.stamp);
   const auto found = register_scans(scans.key.points, scans.reference.points, guess);
@@ -144,7 +132,7 @@ std::optional<Pose> reference_ego_motion(const ScanTriple& scans, const Truth* t
 
 }  // namespace
 
-ScanResult evaluate_scan(const ScanTriple& scans, const Truth* truth,
+ScanResult evaluate_scan(const ScanSet& scans, const Truth* truth,
                          const std::vector<Camera>& cameras, const Pose& T_ego_guess,
                          const EvaluationOptions& options, Pose* T_ego_found) {
   ScanResult result;
@@ -156,13 +144,15 @@ ScanResult evaluate_scan(const ScanTriple& scans, const Truth* truth,
   if (!T_ego) return result;
   *T_ego_found = *T_ego;
 
-  const VirtualPoints points = prepare(scans);
-  result.by_beam = !points.matches.empty();
-  result.objects = evaluate_objects(find_references(scans, truth, *T_ego, cameras, options), scans,
-                                    points, *T_ego);
-  evaluate_moving_points(scans, points.matches, *T_ego, result);
-  evaluate_clouds(scans, *T_ego, cameras, result);
-  if (truth) evaluate_static(scans, points.matches, *T_ego, options.max_range_m, result);
+  const RowSources sources = prepare_rows(scans, *T_ego);
+  result.by_beam = !sources.ours.matches.empty();
+  result.objects = evaluate_objects(find_references(scans, truth, *T_ego, cameras, options),
+                                    sources, cameras, result.dt);
+  measure_moving_points(sources, result);
+  if (truth) measure_flow(sources, options.max_range_m, result);
+  const PerRow<Points> clouds = whole_clouds(sources, result.objects);
+  measure_clouds(clouds, scans.reference, cameras, result);
+  measure_samples(clouds, scans, cameras, options, result);
   return result;
 }
 

@@ -7,17 +7,117 @@
 
 #include "common/tool_main.h"
 #include "evaluation.h"
+#include "figures.h"
+#include "page/page.h"
+#include "page/plots.h"
+#include "page/running_time.h"
+#include "rawlog-densify/job_settings.h"
 #include "report.h"
 
 namespace {
 
 using namespace lidar_upsampling;  // NOLINT(google-build-using-namespace)
 
-void write_json(const LogResult& result, const std::string& path) {
+struct Request {
+  EvaluationJob job;
+  std::string json, html, report, config, protocol;
+  std::vector<std::string> sets;
+  bool no_paper = false;
+  double tolerance_ms = 15;
+};
+
+void add_options(CLI::App& app, Request& request) {
+  EvaluationJob& job = request.job;
+  auto* const reference =
+      app.add_option("--reference", job.reference,
+                     "the full log, or the simulator's truth; without it, --html and --report tell "
+                     "of coverage, tracks and times");
+  app.add_option("--input", job.input, "the densified log")->required();
+  app.add_option("--json", request.json, "everything, per scan and object")->needs(reference);
+  app.add_option("--html", request.html,
+                 "one page for people: tables, plots, and pictures of the worst objects");
+  app.add_option("--report", request.report,
+                 "what rawlog-densify --report wrote: running time, tracks and velocities");
+  app.add_option("--label", job.label, "the LiDAR; default: the one that has virtual scans");
+  app.add_option("--truth-objects", job.truth_objects,
+                 "rawlog-simulate's ..._objects.csv (with ..._ego.csv beside it)")
+      ->needs(reference);
+  app.add_option("--max-range", job.options.max_range_m, "of objects, m")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  app.add_option("--tolerance", request.tolerance_ms,
+                 "between a virtual scan and its reference, ms")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  app.add_flag("--all-around", job.options.all_around, "objects outside of the cameras' view, too");
+  app.add_option("--protocol", request.protocol,
+                 "cut clouds to size as one of the paper's tables did")
+      ->check(CLI::IsMember(protocol_names()))
+      ->needs(reference);
+  app.add_option("--seeds", job.options.num_seeds, "samples drawn for a protocol")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+  app.add_flag("--exact-emd", job.options.exact_emd,
+               "the exact assignment of 2048 points beside the published EMD (slow)");
+  app.add_option("--config", request.config,
+                 "settings that the log was densified with, for row `paper`");
+  app.add_option("--set", request.sets, "one such setting, as for rawlog-densify")
+      ->expected(1)
+      ->take_all();
+  app.add_flag("--no-paper", request.no_paper,
+               "leave out row `paper`, which densifies the log anew");
+  app.callback([&request] {
+    if (request.job.reference.empty() && request.html.empty() && request.report.empty())
+      throw CLI::RequiredError("--reference (or --html or --report)");
+  });
+}
+
+void write_file(const std::string& text, const std::string& path) {
   std::ofstream file(path);
-  file << to_json(result).dump(1) << '\n';
+  file << text;
   file.flush();
-  if (!file) throw std::runtime_error(path + ": the report cannot be written");
+  if (!file) throw std::runtime_error(path + ": cannot be written");
+}
+
+Comparison compare(Request& request, bool with_pictures) {
+  EvaluationJob& job = request.job;
+  job.tolerance_s = 1e-3 * request.tolerance_ms;
+  job.paper_row = !request.no_paper;
+  if (!request.protocol.empty()) job.options.protocol = find_protocol(request.protocol);
+  request.sets.emplace_back("preset=paper");
+  load_settings(job.paper, request.config, request.sets, "");
+  Comparison comparison;
+  if (with_pictures)
+    job.on_scan = [&](const ScanSet& scans, const ScanResult& result, const Pictured& pictures) {
+      comparison.worst.add(scans, result, pictures);
+    };
+  Progress progress("evaluating");
+  comparison.result = evaluate_log(job, std::ref(progress));
+  comparison.figures = compute_figures(comparison.result);
+  comparison.protocol = job.options.protocol;
+  job.on_scan = nullptr;
+  return comparison;
+}
+
+void evaluate(Request& request) {
+  const bool wants_page = !request.html.empty();
+  if (wants_page && !has_gnuplot())
+    throw std::runtime_error(
+        "--html needs gnuplot for its plots, and it is not installed (Debian: gnuplot-nox)");
+  PageContent content;
+  content.input = request.job.input;
+  if (!request.report.empty()) content.run = load_run_report(request.report);
+  if (!request.job.reference.empty()) content.comparison = compare(request, wants_page);
+  if (const auto& comparison = content.comparison)
+    std::cout << to_table(comparison->result, comparison->figures, comparison->protocol);
+  if (content.run) std::cout << to_text(running_time_of(*content.run));
+  if (!request.json.empty())
+    write_file(to_json(content.comparison->result, content.comparison->figures).dump(1) + '\n',
+               request.json);
+  if (!wants_page) return;
+  content.coverage = measure_coverage(index_log(request.job.input), request.job.label,
+                                      1e-3 * request.tolerance_ms);
+  write_file(to_page(content), request.html);
 }
 
 }  // namespace
@@ -25,28 +125,7 @@ void write_json(const LogResult& result, const std::string& path) {
 int main(int argc, char** argv) {
   CLI::App app("Compares the virtual scans of a densified log with the real ones withheld from it",
                "rawlog-evaluate");
-  EvaluationJob job;
-  std::string json;
-  double tolerance_ms = 15;
-  app.add_option("--reference", job.reference, "the full log, or the simulator's truth")
-      ->required();
-  app.add_option("--input", job.input, "the densified log")->required();
-  app.add_option("--json", json, "everything, per scan and object");
-  app.add_option("--label", job.label, "the LiDAR; default: the one that has virtual scans");
-  app.add_option("--truth-objects", job.truth_objects,
-                 "rawlog-simulate's ..._objects.csv (with ..._ego.csv beside it)");
-  app.add_option("--max-range", job.options.max_range_m, "of objects, m")
-      ->check(CLI::PositiveNumber)
-      ->capture_default_str();
-  app.add_option("--tolerance", tolerance_ms, "between a virtual scan and its reference, ms")
-      ->check(CLI::PositiveNumber)
-      ->capture_default_str();
-  app.add_flag("--all-around", job.options.all_around, "objects outside of the cameras' view, too");
-  return run_tool(app, argc, argv, [&] {
-    job.tolerance_s = 1e-3 * tolerance_ms;
-    Progress progress("evaluating");
-    const LogResult result = evaluate_log(job, std::ref(progress));
-    std::cout << to_table(result);
-    if (!json.empty()) write_json(result, json);
-  });
+  Request request;
+  add_options(app, request);
+  return run_tool(app, argc, argv, [&] { evaluate(request); });
 }

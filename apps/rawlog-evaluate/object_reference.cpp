@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "evaluation.h"
+#include "estimates.h"
 #include "lidar_upsampling/objects/detector.h"
 #include "lidar_upsampling/objects/scene_segments.h"
 #include "lidar_upsampling/vision/projection.h"
@@ -13,20 +13,6 @@
 namespace lidar_upsampling {
 
 namespace {
-
-std::vector<Eigen::Vector3f> points_at(const LidarScan& scan, const std::vector<int>& indices) {
-  std::vector<Eigen::Vector3f> points;
-  for (const int i : indices) points.push_back(scan.points[i]);
-  return points;
-}
-
-std::vector<Eigen::Vector3f> without_ground(const LidarScan& scan) {
-  const Ground ground = estimate_ground(scan);
-  std::vector<Eigen::Vector3f> points;
-  for (std::size_t i = 0; i < scan.size(); ++i)
-    if (ground.is_ground.empty() || ground.is_ground[i] == 0) points.push_back(scan.points[i]);
-  return points;
-}
 
 /// As large as road users are; walls and hedges have no motion to measure.
 bool is_object(const ClusterExtent& extent, const std::vector<int>& cluster) {
@@ -64,8 +50,8 @@ std::vector<int> points_in_box(const LidarScan& scan, const Ground& ground, cons
   return points;
 }
 
-std::vector<ObjectReference> by_truth(const ScanTriple& scans, const Truth& truth,
-                                      const Pose& T_ego, const EvaluationOptions& options) {
+std::vector<ObjectReference> by_truth(const ScanSet& scans, const Truth& truth, const Pose& T_ego,
+                                      const EvaluationOptions& options) {
   const Ground ground = estimate_ground(scans.key);
   const Stamp stamp = scans.virtual_scan.stamp;
   std::vector<ObjectReference> objects;
@@ -105,16 +91,19 @@ void register_to_reference(ObjectReference& object, const LidarScan& key, const 
 
 }  // namespace
 
-bool in_view(const std::vector<Camera>& cameras, const LidarScan& scan,
-             const Eigen::Vector3d& point_in_lidar) {
-  return std::any_of(cameras.begin(), cameras.end(), [&](const Camera& camera) {
-    const Eigen::Vector3d in_camera =
-        camera.T_vehicle_camera.inverse() * scan.T_vehicle_lidar * point_in_lidar;
-    return project(camera.model, in_camera).has_value();
-  });
+bool in_view(const Camera& camera, const LidarScan& scan, const Eigen::Vector3d& point_in_lidar) {
+  const Eigen::Vector3d in_camera =
+      camera.T_vehicle_camera.inverse() * scan.T_vehicle_lidar * point_in_lidar;
+  return project(camera.model, in_camera).has_value();
 }
 
-std::vector<ObjectReference> find_references(const ScanTriple& scans, const Truth* truth,
+bool in_view(const std::vector<Camera>& cameras, const LidarScan& scan,
+             const Eigen::Vector3d& point_in_lidar) {
+  return std::any_of(cameras.begin(), cameras.end(),
+                     [&](const Camera& camera) { return in_view(camera, scan, point_in_lidar); });
+}
+
+std::vector<ObjectReference> find_references(const ScanSet& scans, const Truth* truth,
                                              const Pose& T_ego, const std::vector<Camera>& cameras,
                                              const EvaluationOptions& options) {
   auto objects = truth ? by_truth(scans, *truth, T_ego, options) : by_clusters(scans.key);

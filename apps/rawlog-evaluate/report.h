@@ -6,13 +6,15 @@
 #include <string>
 
 #include "evaluation.h"
+#include "figures.h"
 
 namespace lidar_upsampling {
 
-/// The summary for people: one block per kind of object, one line per row.
-[[nodiscard]] std::string to_table(const LogResult& result);
+/// The summary for people: one block per kind of figure, one line per row.
+[[nodiscard]] std::string to_table(const LogResult& result, const Figures& figures,
+                                   const std::optional<Protocol>& protocol);
 
 /// Everything, per scan and object; the summary first.
-[[nodiscard]] nlohmann::ordered_json to_json(const LogResult& result);
+[[nodiscard]] nlohmann::ordered_json to_json(const LogResult& result, const Figures& figures);
 
 }  // namespace lidar_upsampling

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the lidar_upsampling authors
+#pragma once
+
+#include <mrpt/obs/CObservation.h>
+
+#include <optional>
+#include <set>
+#include <string>
+
+#include "densify.h"
+#include "lidar_upsampling/io/log_index.h"
+#include "lidar_upsampling/upsampler.h"
+#include "pictures.h"
+
+namespace lidar_upsampling {
+
+/// @brief One run of the method over a log: its observations go in one by one, in the log's order,
+/// virtual scans come out.
+class Densification {
+ public:
+  /// @param job only its settings and its folder of pictures are used. Must outlive the run, as the
+  /// report must.
+  /// @param index of the whole log. @throw std::runtime_error as select_streams()
+  Densification(const DensifyJob& job, const LogIndex& index, DensifyReport& report);
+
+  /// @return the virtual scan that became due: the observation's own, or a waiting one of before.
+  [[nodiscard]] std::optional<VirtualScan> feed(const mrpt::obs::CObservation::Ptr& observation);
+
+  /// @return the virtual scan that still waits for other cameras, if any.
+  [[nodiscard]] std::optional<VirtualScan> flush();
+
+  /// The last real scan as the log held it; null before the first.
+  [[nodiscard]] const mrpt::obs::CObservation::Ptr& last_real() const { return last_real_; }
+
+ private:
+  std::optional<VirtualScan> feed_scan(const mrpt::obs::CObservation::Ptr& observation);
+  std::optional<VirtualScan> feed_image(mrpt::obs::CObservation& observation);
+  std::optional<VirtualScan> noted(std::optional<VirtualScan> scan);
+
+  const DensifyJob& job_;
+  DensifyReport& report_;
+  LidarUpsampler upsampler_;
+  mrpt::obs::CObservation::Ptr last_real_;
+  std::string lidar_label_;
+  std::set<std::string> camera_labels_;
+  std::optional<Pictures> pictures_;
+};
+
+}  // namespace lidar_upsampling

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the lidar_upsampling authors
+#include "estimates.h"
+
+#include "lidar_upsampling/metrics/scan_motion.h"
+#include "lidar_upsampling/objects/ground.h"
+#include "lidar_upsampling/se3.h"
+
+namespace lidar_upsampling {
+
+namespace {
+
+Pose constant_velocity(const ObjectReference& object, const RowSources& sources) {
+  const ScanSet& scans = sources.scans;
+  if (!sources.previous || !scans.T_previous_key) return sources.T_ego;
+  const Pose& T_previous_key = *scans.T_previous_key;
+  const auto found = register_object(points_at(scans.key, object.points), *sources.previous,
+                                     {T_previous_key, Pose::Identity()});
+  if (found.status != RegistrationStatus::reliable) return sources.T_ego;
+  // Back over ground from the key scan to the one before it, both in the frame of the key scan.
+  const Pose T_back = T_previous_key.inverse() * found.T_target_object;
+  const double share = seconds_between(scans.key.stamp, scans.virtual_scan.stamp) /
+                       seconds_between(scans.previous->stamp, scans.key.stamp);
+  return sources.T_ego * exp_se3(Twist(-share * log_se3(T_back)));
+}
+
+std::optional<Pose> recovered(const ObjectReference& object, const RowSources& sources,
+                              const MovedScan& moved) {
+  return recover_motion(sources.scans.key, *moved.scan, object.points, moved.matches, moved.surface,
+                        {sources.T_ego, Pose::Identity(), object.motion.T_lidar_t_lidar_k});
+}
+
+}  // namespace
+
+std::vector<Eigen::Vector3f> points_at(const LidarScan& scan, const std::vector<int>& indices) {
+  std::vector<Eigen::Vector3f> points;
+  points.reserve(indices.size());
+  for (const int i : indices) points.push_back(scan.points[i]);
+  return points;
+}
+
+std::vector<Eigen::Vector3f> without_ground(const LidarScan& scan) {
+  const Ground ground = estimate_ground(scan);
+  std::vector<Eigen::Vector3f> points;
+  for (std::size_t i = 0; i < scan.size(); ++i)
+    if (ground.is_ground.empty() || ground.is_ground[i] == 0) points.push_back(scan.points[i]);
+  return points;
+}
+
+MovedScan prepare_moved_scan(const LidarScan& key, const LidarScan& virtual_scan) {
+  std::vector<int> matches = match_by_beam(key, virtual_scan);
+  Surface surface =
+      make_surface(matches.empty() ? without_ground(virtual_scan) : std::vector<Eigen::Vector3f>{});
+  return {&virtual_scan, std::move(matches), std::move(surface)};
+}
+
+RowSources prepare_rows(const ScanSet& scans, const Pose& T_ego) {
+  RowSources sources{scans, T_ego, prepare_moved_scan(scans.key, scans.virtual_scan), std::nullopt,
+                     std::nullopt};
+  if (scans.paper) sources.paper = prepare_moved_scan(scans.key, *scans.paper);
+  if (scans.previous) sources.previous = make_surface(without_ground(*scans.previous));
+  return sources;
+}
+
+Estimates estimates_of(const ObjectReference& object, const RowSources& sources) {
+  Estimates estimates;
+  estimates[Row::hold] = Pose::Identity();
+  estimates[Row::ego] = sources.T_ego;
+  estimates[Row::constant_velocity] = constant_velocity(object, sources);
+  estimates[Row::ours] = recovered(object, sources, sources.ours);
+  if (sources.paper) estimates[Row::paper] = recovered(object, sources, *sources.paper);
+  estimates[Row::oracle] = object.motion.T_lidar_t_lidar_k;
+  return estimates;
+}
+
+}  // namespace lidar_upsampling

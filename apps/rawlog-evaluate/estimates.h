@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the lidar_upsampling authors
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "evaluation.h"
+
+namespace lidar_upsampling {
+
+/// A virtual scan made ready to tell where objects of the key scan went in it.
+struct MovedScan {
+  const LidarScan* scan = nullptr;
+  std::vector<int> matches;  ///< of match_by_beam()
+  Surface surface;           ///< of its points off the ground, only made where beams do not tell
+};
+
+[[nodiscard]] MovedScan prepare_moved_scan(const LidarScan& key, const LidarScan& virtual_scan);
+
+/// What the rows that know nothing of an object alone are made from.
+struct RowSources {
+  const ScanSet& scans;
+  Pose T_ego;
+  MovedScan ours;
+  std::optional<MovedScan> paper;
+  std::optional<Surface> previous;  ///< the previous scan off the ground
+};
+
+[[nodiscard]] RowSources prepare_rows(const ScanSet& scans, const Pose& T_ego);
+
+/// @brief Where each row says that an object went. `constant_velocity` goes on as between the last
+/// two real scans (found by registration, velocity and yaw rate over ground kept); an object that
+/// cannot be registered there is left to the ego-motion.
+[[nodiscard]] Estimates estimates_of(const ObjectReference& object, const RowSources& sources);
+
+[[nodiscard]] std::vector<Eigen::Vector3f> points_at(const LidarScan& scan,
+                                                     const std::vector<int>& indices);
+
+/// The scan's points that do not lie on the ground.
+[[nodiscard]] std::vector<Eigen::Vector3f> without_ground(const LidarScan& scan);
+
+}  // namespace lidar_upsampling

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the lidar_upsampling authors
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace lidar_upsampling {
+
+/// A stage's times over a whole densification.
+struct StageFigures {
+  std::string name;
+  int runs = 0;
+  double median_ms = 0, p95_ms = 0, total_ms = 0;
+};
+
+/// An object that the densification followed.
+struct TrackFigures {
+  int id = 0;
+  std::string class_name;
+  int num_images = 0, num_moving = 0;     ///< at which it was met; of them, moved by its own motion
+  double mean_speed = 0, last_speed = 0;  ///< m/s over ground, where it moved
+
+  struct Sample {
+    double time_s = 0;  ///< since the report's first object
+    double speed = 0;
+  };
+  std::vector<Sample> speeds;  ///< where its motion is known; standing: 0
+};
+
+/// What rawlog-densify --report wrote.
+struct RunReport {
+  std::string path;
+  std::string ego_motion, detector, carrier;
+  int num_scans = 0, num_images = 0, num_virtual = 0, num_extrapolated = 0;
+  std::vector<StageFigures> stages;
+  std::map<std::string, int> object_status, warnings;
+  std::vector<TrackFigures> tracks;  ///< by id
+};
+
+/// @throw std::runtime_error the file cannot be read, or is no such report.
+[[nodiscard]] RunReport load_run_report(const std::string& path);
+
+}  // namespace lidar_upsampling

@@ -1,0 +1,36 @@
+#!/usr/bin/env bash
+# One measurement of share/results.md, from log to table.
+#   share/measure.sh scenario <name>                a file of config/scenarios, without its ending
+#   share/measure.sh drive <folder> <K>             a drive of the KITTI raw set of which every K-th scan is kept
+# Further arguments go to rawlog-evaluate. Logs and reports go to out/results, or $OUT; settings of rawlog-densify
+# may be given as $SET, for instance SET="preset=paper mode=causal".
+. "$(dirname "$0")/protocols/common.sh"
+out=${OUT:-$project/out/results}
+settings=()
+for setting in ${SET:-}; do settings+=(--set "$setting"); done
+kind=${1:?usage: $0 scenario <name> | drive <folder> <K>}; shift
+mkdir -p "$out"
+
+case $kind in
+  scenario)
+    name=${1:?which scenario?}; shift
+    full=$out/$name-truth.rawlog thin=$out/$name.rawlog
+    [ -e "$full" ] && [ "$full" -nt "$project/config/scenarios/$name.ini" ] || "$(tool rawlog-simulate)" --scenario "$project/config/scenarios/$name.ini" \
+      --output "$thin" --truth "$full" --overwrite > /dev/null
+    judge=(--truth-objects "$out/${name}_objects.csv" --max-range 40)
+    ;;
+  drive)
+    folder=${1:?which folder?} keep=${2:?keep every which scan?}; shift 2
+    need_folder "$folder" "a drive of the KITTI raw data set"
+    config=$project/config/kitti.ini
+    name=drive-keep-$keep full=$out/drive.rawlog thin=$out/$name.rawlog judge=()
+    "$(tool kitti2rawlog)" --drive "$folder" --output "$full" --overwrite > /dev/null
+    "$(tool rawlog-decimate)" --input "$full" --output "$thin" --label LIDAR --keep-every "$keep" --overwrite > /dev/null
+    ;;
+  *) echo "usage: $0 scenario <name> | drive <folder> <K>" >&2; exit 2 ;;
+esac
+
+"$(tool rawlog-densify)" --config "$config" --input "$thin" --output "$out/$name-dense.rawlog" \
+  --report "$out/$name-report.json" --overwrite "${settings[@]}" > "$out/$name-densify.txt"
+"$(tool rawlog-evaluate)" --reference "$full" --input "$out/$name-dense.rawlog" --config "$config" \
+  "${judge[@]}" --json "$out/$name.json" "$@"

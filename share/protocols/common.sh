@@ -1,0 +1,37 @@
+# What the scripts of this folder share; sourced by them.
+# Tools are taken from build/release, build/dev or the PATH; logs and reports go to out/protocols/<protocol>, or $OUT.
+set -euo pipefail
+project=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
+protocol=$(basename "$0" .sh)
+out=${OUT:-$project/out/protocols/$protocol}
+mkdir -p "$out"
+config=$project/config/default.ini
+comparisons=()
+
+tool() {
+  local place
+  for place in "$project"/build/{release,dev}/{apps,rawlog_tools}/"$1"/"$1"; do
+    if [ -x "$place" ]; then echo "$place"; return; fi
+  done
+  command -v "$1" || { echo "$protocol: $1 is not built; run: cmake --preset release && cmake --build --preset release" >&2; exit 1; }
+}
+
+need_folder() {
+  [ -d "$1" ] || { echo "$protocol: there is no folder $1 ($2)" >&2; exit 1; }
+}
+
+# densify_withheld <name> [options of rawlog-densify]: every second scan of <name>.rawlog is withheld, and made
+# again from the images.
+densify_withheld() {
+  local name=$1; shift
+  "$(tool rawlog-decimate)" --input "$out/$name.rawlog" --output "$out/$name-thinned.rawlog" \
+    --label LIDAR --keep-every 2 --overwrite
+  "$(tool rawlog-densify)" --config "$config" --input "$out/$name-thinned.rawlog" \
+    --output "$out/$name-dense.rawlog" --report "$out/$name-report.json" --overwrite "$@"
+  comparisons+=(--reference "$out/$name.rawlog" --input "$out/$name-dense.rawlog")
+}
+
+# print_table [options of rawlog-evaluate]: all that was densified, judged together.
+print_table() {
+  "$(tool rawlog-evaluate)" "${comparisons[@]}" --config "$config" --json "$out/errors.json" "$@"
+}
