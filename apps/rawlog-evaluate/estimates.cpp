@@ -49,6 +49,7 @@ std::vector<Eigen::Vector3f> without_ground(const LidarScan& scan) {
 
 MovedScan prepare_moved_scan(const LidarScan& key, const LidarScan& virtual_scan) {
   std::vector<int> matches = match_by_beam(key, virtual_scan);
+  if (matches.empty()) matches = match_in_order(key, virtual_scan);
   Surface surface =
       make_surface(matches.empty() ? without_ground(virtual_scan) : std::vector<Eigen::Vector3f>{});
   return {&virtual_scan, std::move(matches), std::move(surface)};

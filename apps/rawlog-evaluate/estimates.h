@@ -12,7 +12,7 @@ namespace lidar_upsampling {
 /// A virtual scan made ready to tell where objects of the key scan went in it.
 struct MovedScan {
   const LidarScan* scan = nullptr;
-  std::vector<int> matches;  ///< of match_by_beam()
+  std::vector<int> matches;  ///< of match_by_beam() or match_in_order()
   Surface surface;           ///< of its points off the ground, only made where beams do not tell
 };
 

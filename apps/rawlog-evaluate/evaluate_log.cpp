@@ -151,19 +151,28 @@ class Walk {
 
   // Those of the present key scan: both runs have said all about it.
   void judge_waiting() {
-    for (const Waiting& waiting : ours_) judge(waiting.scan, waiting.pictures);
+    for (Waiting& waiting : ours_) {
+      const LidarScan* paper = paper_at(waiting.scan.stamp);
+      // The instant that the scan is of, where the settings tell that the images' stamps lie
+      // beside.
+      waiting.scan.stamp =
+          shifted(waiting.scan.stamp, -1e-3 * job_.paper.config.timing.camera_time_offset_ms);
+      judge(waiting.scan, paper, waiting.pictures);
+    }
     ours_.clear();
     papers_.clear();
   }
 
-  void judge(const LidarScan& scan, const Pictured& pictures) {
+  void judge(const LidarScan& scan, const LidarScan* paper, const Pictured& pictures) {
     const LidarScan* match = key_ ? references_.nearest(scan.stamp) : nullptr;
     const double dt = match ? seconds_between(key_->stamp, scan.stamp) : 0;
     if (!match || !(dt > 0) || !(match->stamp > key_->stamp)) {
       ++result_.num_unmatched;
       return;
     }
-    ScanSet scans{*key_, scan, *match, nullptr, T_previous_key_, paper_at(scan.stamp)};
+    std::optional<LidarScan> timed;
+    if (truth_ && match->stamp != scan.stamp) timed = brought_to(*truth_, *match, scan.stamp);
+    ScanSet scans{*key_, scan, timed ? *timed : *match, nullptr, T_previous_key_, paper};
     if (previous_ && T_previous_key_) scans.previous = &*previous_;
     Pose T_ego = exp_se3(Twist(ego_rate_ * dt));
     result_.scans.push_back(

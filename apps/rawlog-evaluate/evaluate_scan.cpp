@@ -145,7 +145,7 @@ ScanResult evaluate_scan(const ScanSet& scans, const Truth* truth,
   *T_ego_found = *T_ego;
 
   const RowSources sources = prepare_rows(scans, *T_ego);
-  result.by_beam = !sources.ours.matches.empty();
+  result.points_told = !sources.ours.matches.empty();
   result.objects = evaluate_objects(find_references(scans, truth, *T_ego, cameras, options),
                                     sources, cameras, result.dt);
   measure_moving_points(sources, result);

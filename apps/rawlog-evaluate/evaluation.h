@@ -87,7 +87,7 @@ struct ScanResult {
   Stamp stamp, key_stamp;
   double dt = 0;
   bool ego_found = false;
-  bool by_beam = false;  ///< points were told by ring and column
+  bool points_told = false;  ///< one by one, by ring and column or order
   std::vector<ObjectResult> objects;
   PerRow<std::optional<CloudResult>> clouds;
   PerRow<SampledResult> sampled;
@@ -103,11 +103,16 @@ struct LogResult {
   std::string input, reference;
   std::string protocol;  ///< empty: none
   bool has_truth = false;
+  int num_logs = 1;
   int num_virtual = 0;
   int num_unmatched = 0;  ///< without a reference scan, or before the first key scan
   std::vector<std::string> notes;
   std::vector<ScanResult> scans;
 };
+
+/// @brief Takes in what happened in a further log; from the second one on, objects are named after
+/// their reference log, too.
+void append(LogResult& total, LogResult log);
 
 /// @brief Objects of the key scan with their reference motions: by clusters and registration to the
 /// reference scan, or by true boxes.

@@ -93,7 +93,7 @@ Json json_of(const ScanResult& scan) {
             {"key_stamp", scan.key_stamp.time_since_epoch().count()},
             {"dt_s", scan.dt},
             {"ego_found", scan.ego_found},
-            {"by_beam", scan.by_beam}};
+            {"points_told", scan.points_told}};
   for (const Row row : kRows) {
     const char* name = name_of(row);
     if (scan.clouds[row]) {

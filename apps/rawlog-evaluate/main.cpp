@@ -20,6 +20,7 @@ using namespace lidar_upsampling;  // NOLINT(google-build-using-namespace)
 
 struct Request {
   EvaluationJob job;
+  std::vector<std::string> references, inputs, truth_objects;  ///< of each log
   std::string json, html, report, config, protocol;
   std::vector<std::string> sets;
   bool no_paper = false;
@@ -29,19 +30,27 @@ struct Request {
 void add_options(CLI::App& app, Request& request) {
   EvaluationJob& job = request.job;
   auto* const reference =
-      app.add_option("--reference", job.reference,
+      app.add_option("--reference", request.references,
                      "the full log, or the simulator's truth; without it, --html and --report tell "
-                     "of coverage, tracks and times");
-  app.add_option("--input", job.input, "the densified log")->required();
+                     "of coverage, tracks and times")
+          ->expected(1)
+          ->take_all();
+  app.add_option("--input", request.inputs,
+                 "the densified log; several are judged together, each with its --reference")
+      ->required()
+      ->expected(1)
+      ->take_all();
   app.add_option("--json", request.json, "everything, per scan and object")->needs(reference);
   app.add_option("--html", request.html,
                  "one page for people: tables, plots, and pictures of the worst objects");
   app.add_option("--report", request.report,
                  "what rawlog-densify --report wrote: running time, tracks and velocities");
   app.add_option("--label", job.label, "the LiDAR; default: the one that has virtual scans");
-  app.add_option("--truth-objects", job.truth_objects,
-                 "rawlog-simulate's ..._objects.csv (with ..._ego.csv beside it)")
-      ->needs(reference);
+  app.add_option("--truth-objects", request.truth_objects,
+                 "..._objects.csv of rawlog-simulate or an importer (with ..._ego.csv beside it)")
+      ->needs(reference)
+      ->expected(1)
+      ->take_all();
   app.add_option("--max-range", job.options.max_range_m, "of objects, m")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
@@ -67,8 +76,15 @@ void add_options(CLI::App& app, Request& request) {
   app.add_flag("--no-paper", request.no_paper,
                "leave out row `paper`, which densifies the log anew");
   app.callback([&request] {
-    if (request.job.reference.empty() && request.html.empty() && request.report.empty())
+    const std::size_t logs = request.inputs.size();
+    if (request.references.empty() && request.html.empty() && request.report.empty())
       throw CLI::RequiredError("--reference (or --html or --report)");
+    if (!request.references.empty() && request.references.size() != logs)
+      throw CLI::ValidationError("--reference", "each --input needs one");
+    if (!request.truth_objects.empty() && request.truth_objects.size() != logs)
+      throw CLI::ValidationError("--truth-objects", "each --input needs one, or none has one");
+    if (logs > 1 && (!request.html.empty() || !request.report.empty()))
+      throw CLI::ValidationError("--html, --report", "tell of one log");
   });
 }
 
@@ -91,8 +107,13 @@ Comparison compare(Request& request, bool with_pictures) {
     job.on_scan = [&](const ScanSet& scans, const ScanResult& result, const Pictured& pictures) {
       comparison.worst.add(scans, result, pictures);
     };
-  Progress progress("evaluating");
-  comparison.result = evaluate_log(job, std::ref(progress));
+  for (std::size_t i = 0; i < request.inputs.size(); ++i) {
+    job.input = request.inputs[i];
+    job.reference = request.references[i];
+    if (!request.truth_objects.empty()) job.truth_objects = request.truth_objects[i];
+    Progress progress("evaluating");
+    append(comparison.result, evaluate_log(job, std::ref(progress)));
+  }
   comparison.figures = compute_figures(comparison.result);
   comparison.protocol = job.options.protocol;
   job.on_scan = nullptr;
@@ -105,9 +126,9 @@ void evaluate(Request& request) {
     throw std::runtime_error(
         "--html needs gnuplot for its plots, and it is not installed (Debian: gnuplot-nox)");
   PageContent content;
-  content.input = request.job.input;
+  content.input = request.inputs.front();
   if (!request.report.empty()) content.run = load_run_report(request.report);
-  if (!request.job.reference.empty()) content.comparison = compare(request, wants_page);
+  if (!request.references.empty()) content.comparison = compare(request, wants_page);
   if (const auto& comparison = content.comparison)
     std::cout << to_table(comparison->result, comparison->figures, comparison->protocol);
   if (content.run) std::cout << to_text(running_time_of(*content.run));
@@ -115,7 +136,7 @@ void evaluate(Request& request) {
     write_file(to_json(content.comparison->result, content.comparison->figures).dump(1) + '\n',
                request.json);
   if (!wants_page) return;
-  content.coverage = measure_coverage(index_log(request.job.input), request.job.label,
+  content.coverage = measure_coverage(index_log(request.inputs.front()), request.job.label,
                                       1e-3 * request.tolerance_ms);
   write_file(to_page(content), request.html);
 }

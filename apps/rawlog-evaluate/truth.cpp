@@ -93,6 +93,25 @@ std::optional<Pose> true_object_motion(const Truth& truth, const TrueObject& obj
   return lidar_t->inverse() * at_t->T_world_vehicle * *k;
 }
 
+LidarScan brought_to(const Truth& truth, const LidarScan& scan, Stamp stamp) {
+  LidarScan moved = scan;
+  const auto T_ego = true_ego_motion(truth, scan, stamp);
+  if (!T_ego || stamp == scan.stamp) return moved;
+  moved.stamp = stamp;
+  for (auto& point : moved.points) point = (*T_ego * point.cast<double>()).cast<float>();
+  for (const TrueObject& object : truth.objects) {
+    const auto T_box_lidar = box_in_scan(truth, object, scan);
+    const auto T_object = true_object_motion(truth, object, scan, stamp);
+    if (!T_box_lidar || !T_object) continue;
+    for (std::size_t i = 0; i < scan.size(); ++i) {
+      const Eigen::Vector3d point = scan.points[i].cast<double>();
+      if (((*T_box_lidar * point).array().abs() < 0.5 * object.size.array()).all())
+        moved.points[i] = (*T_object * point).cast<float>();
+    }
+  }
+  return moved;
+}
+
 std::optional<Pose> box_in_scan(const Truth& truth, const TrueObject& object,
                                 const LidarScan& key) {
   const auto box = object.T_world_object.at(key.stamp);

@@ -41,6 +41,10 @@ struct Truth {
 [[nodiscard]] std::optional<Pose> true_object_motion(const Truth& truth, const TrueObject& object,
                                                      const LidarScan& key, Stamp stamp);
 
+/// @brief The scan as it would have been at another instant close by: the scene moved by the true
+/// ego-motion, each object by its own. Where the truth does not reach, the scan as it is.
+[[nodiscard]] LidarScan brought_to(const Truth& truth, const LidarScan& scan, Stamp stamp);
+
 /// T_object_lidar at the key scan.
 [[nodiscard]] std::optional<Pose> box_in_scan(const Truth& truth, const TrueObject& object,
                                               const LidarScan& key);

@@ -1,5 +1,5 @@
 # What the scripts of this folder share; sourced by them.
-# Tools are taken from build/release, build/dev or the PATH; logs and reports go to out/protocols/<protocol>, or $OUT.
+# Tools are taken from $BUILD, build/release, build/dev or the PATH; logs and reports go to out/protocols/<protocol>, or $OUT.
 set -euo pipefail
 project=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 protocol=$(basename "$0" .sh)
@@ -9,8 +9,9 @@ config=$project/config/default.ini
 comparisons=()
 
 tool() {
-  local place
-  for place in "$project"/build/{release,dev}/{apps,rawlog_tools}/"$1"/"$1"; do
+  local place places=("$project"/build/{release,dev}/{apps,rawlog_tools}/"$1"/"$1")
+  [ -z "${BUILD:-}" ] || places=("$BUILD"/{apps,rawlog_tools}/"$1"/"$1" "${places[@]}")
+  for place in "${places[@]}"; do
     if [ -x "$place" ]; then echo "$place"; return; fi
   done
   command -v "$1" || { echo "$protocol: $1 is not built; run: cmake --preset release && cmake --build --preset release" >&2; exit 1; }

@@ -64,6 +64,19 @@ TEST(MatchByBeam, says_nothing_without_rings) {
   EXPECT_TRUE(match_by_beam(bare, key).empty());
 }
 
+TEST(MatchInOrder, tells_moved_points_without_rings_and_a_scan_of_its_own) {
+  LidarScan key = scan_street(houses(), lidar_at(0, 0, 0), 1);
+  LidarScan later = scan_street(houses(), lidar_at(0.5, 0, 0), 2);
+  later.points.resize(std::min(key.size(), later.size()));
+  key.points.resize(later.points.size());
+  const auto matches = match_in_order(key, moved(key, lidar_at(1, 0, 0)));
+  ASSERT_EQ(matches.size(), key.size());
+  EXPECT_EQ(matches[6], 6);
+  EXPECT_TRUE(match_in_order(key, later).empty());
+  later.points.pop_back();
+  EXPECT_TRUE(match_in_order(key, later).empty());
+}
+
 TEST(FitRigid, ignores_a_third_of_wrong_pairs) {
   const Pose truth = lidar_at(0.7, -0.2, 0.1);
   std::mt19937 random(3);

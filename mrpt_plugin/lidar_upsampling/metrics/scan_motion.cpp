@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 #include <cstdint>
+#include <numeric>
 #include <random>
 #include <unordered_map>
 
@@ -96,6 +97,18 @@ std::vector<int> match_by_beam(const LidarScan& key, const LidarScan& virtual_sc
       matches[i] = found->second;
     }
   }
+  if (is_other_points(key, virtual_scan, matches)) {
+    return {};
+  }
+  return matches;
+}
+
+std::vector<int> match_in_order(const LidarScan& key, const LidarScan& virtual_scan) {
+  if (key.size() != virtual_scan.size()) {
+    return {};
+  }
+  std::vector<int> matches(key.size());
+  std::iota(matches.begin(), matches.end(), 0);
   if (is_other_points(key, virtual_scan, matches)) {
     return {};
   }

@@ -16,6 +16,10 @@ namespace lidar_upsampling {
 /// the key scan's: drawn anew on the sensor's beams, or a scan of the sensor's own.
 [[nodiscard]] std::vector<int> match_by_beam(const LidarScan& key, const LidarScan& virtual_scan);
 
+/// @brief The same for scans without rings or columns: a virtual scan that left nothing out has its
+/// points in the key scan's order. Empty if the numbers differ or most points are others.
+[[nodiscard]] std::vector<int> match_in_order(const LidarScan& key, const LidarScan& virtual_scan);
+
 struct RigidFit {
   Pose T_target_source = Pose::Identity();
   double rmse_m = 0;  ///< of the inliers

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the lidar_upsampling authors
+#include <filesystem>
+#include <iterator>
+#include <utility>
+
+#include "evaluation.h"
+
+namespace lidar_upsampling {
+
+namespace {
+
+void name_after(LogResult& log) {
+  const std::string stem = std::filesystem::path(log.reference).stem().string();
+  for (ScanResult& scan : log.scans)
+    for (ObjectResult& object : scan.objects) object.object.id = stem + "/" + object.object.id;
+}
+
+}  // namespace
+
+void append(LogResult& total, LogResult log) {
+  if (total.scans.empty()) {
+    total = std::move(log);
+    return;
+  }
+  if (total.num_logs == 1) name_after(total);
+  name_after(log);
+  ++total.num_logs;
+  total.has_truth = total.has_truth && log.has_truth;
+  total.num_virtual += log.num_virtual;
+  total.num_unmatched += log.num_unmatched;
+  for (const std::string& note : log.notes) total.notes.push_back(log.input + ": " + note);
+  std::move(log.scans.begin(), log.scans.end(), std::back_inserter(total.scans));
+}
+
+}  // namespace lidar_upsampling

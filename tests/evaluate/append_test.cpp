@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the lidar_upsampling authors
+#include <gtest/gtest.h>
+
+#include "evaluation.h"
+
+namespace lidar_upsampling {
+namespace {
+
+LogResult log_named(const std::string& reference, int num_virtual) {
+  LogResult log;
+  log.reference = reference;
+  log.input = "dense.rawlog";
+  log.num_virtual = num_virtual;
+  log.notes = {"seen"};
+  ScanResult scan;
+  scan.objects.resize(1);
+  scan.objects[0].object.id = "1";
+  log.scans = {scan};
+  return log;
+}
+
+TEST(Append, one_log_stays_as_it_is) {
+  LogResult total;
+  append(total, log_named("in/04.rawlog", 3));
+  EXPECT_EQ(total.scans[0].objects[0].object.id, "1");
+  EXPECT_EQ(total.num_logs, 1);
+}
+
+TEST(Append, objects_of_several_logs_are_told_apart_by_their_logs_names) {
+  LogResult total;
+  append(total, log_named("in/04.rawlog", 3));
+  append(total, log_named("in/47.rawlog", 4));
+  append(total, log_named("in/56.rawlog", 5));
+  ASSERT_EQ(total.scans.size(), 3U);
+  EXPECT_EQ(total.scans[0].objects[0].object.id, "04/1");
+  EXPECT_EQ(total.scans[1].objects[0].object.id, "47/1");
+  EXPECT_EQ(total.scans[2].objects[0].object.id, "56/1");
+  EXPECT_EQ(total.num_virtual, 12);
+  EXPECT_EQ(total.num_logs, 3);
+  EXPECT_EQ(total.notes.back(), "dense.rawlog: seen");
+}
+
+}  // namespace
+}  // namespace lidar_upsampling
