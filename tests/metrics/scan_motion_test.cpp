@@ -40,7 +40,7 @@ TEST(MatchByBeam, finds_points_again_whatever_their_order) {
 
 TEST(MatchByBeam, leaves_out_beams_with_several_points) {
   LidarScan key = scan_street(houses(), lidar_at(0, 0, 0));
-  key.points.push_back(2 * key.points[5]);
+  key.points.emplace_back(2 * key.points[5]);
   key.ring.push_back(key.ring[5]);
   key.column.push_back(key.column[5]);
   const auto matches = match_by_beam(key, moved(key, lidar_at(1, 0, 0)));

@@ -85,6 +85,7 @@ class StreetRun {
     std::vector<Event> events;
     const auto scans =
         sim::stamps_of(scenario.lidar.rate_hz, scenario.lidar.phase_s, scenario.duration_s);
+    events.reserve(scans.size());
     for (const Stamp stamp : scans) events.push_back({stamp, -1});
     std::vector<sim::CameraRenderer> renderers;
     for (const sim::CameraSpec& camera : scenario.cameras) {

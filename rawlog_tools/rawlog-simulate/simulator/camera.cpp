@@ -107,7 +107,8 @@ void smooth_edges(const Instant& now, int index, Canvas& canvas) {
       if (!canvas.on_edge(u, v)) continue;
       Vector3f sum = Vector3f::Zero();
       for (int i = 0; i < kSubpixels * kSubpixels; ++i) {
-        const Vector2d at((i % kSubpixels + 0.5) / kSubpixels, (i / kSubpixels + 0.5) / kSubpixels);
+        const int column = i % kSubpixels, row = i / kSubpixels;
+        const Vector2d at((column + 0.5) / kSubpixels, (row + 0.5) / kSubpixels);
         const PixelRay ray = ray_at(now, u, v, at, kSubpixels);
         sum += trace(now, ray, canvas.candidates[index]).color.cwiseMin(1.3F);
       }

@@ -13,6 +13,13 @@ namespace {
 
 constexpr double kRadian = M_PI / 180;
 
+[[noreturn]] void refuse_phase(const std::string& text, const std::string& item) {
+  throw std::invalid_argument(
+      "motion \"" + text + "\": \"" + item +
+      "\" is neither constant, brake, accelerate, turn_left, turn_right nor three numbers "
+      "\"t acceleration yaw_rate_deg\"");
+}
+
 // Integral of (v + a s) (cos, sin)(yaw + w s) over s in [0, dt].
 Eigen::Vector2d displacement(double v, double a, double yaw, double w, double dt) {
   if (std::abs(w) < 1e-6) {
@@ -82,12 +89,8 @@ std::vector<MotionPhase> parse_phases(const std::string& text) {
     MotionPhase phase;
     double yaw_rate_deg = 0;
     std::string rest;
-    if (!(numbers >> phase.t >> phase.acceleration >> yaw_rate_deg) || numbers >> rest) {
-      throw std::invalid_argument(
-          "motion \"" + text + "\": \"" + item +
-          "\" is neither constant, brake, accelerate, turn_left, turn_right nor three numbers "
-          "\"t acceleration yaw_rate_deg\"");
-    }
+    if (!(numbers >> phase.t >> phase.acceleration >> yaw_rate_deg) || numbers >> rest)
+      refuse_phase(text, item);
     phase.yaw_rate = yaw_rate_deg * kRadian;
     if (phase.t < 0 || (!phases.empty() && phase.t <= phases.back().t)) {
       throw std::invalid_argument("motion \"" + text + "\": its times must grow from 0 on");

@@ -82,7 +82,7 @@ Object make_building(double x_from, double x_to, double facade_y, double side, s
   Object building = standing_at(0.5 * (x_from + x_to), side * facade_y, side > 0 ? 0 : M_PI, seed);
   const double half = 0.5 * (x_to - x_from), depth = kBuildingDepth;
   const double height = 4.1 + 3.1 * (1 + static_cast<int>(uniform(seed, 1) * 3.2)) + 0.5;
-  const Vector3f wall = walls[hash(seed, 2) % walls.size()];
+  const Vector3f& wall = walls[hash(seed, 2) % walls.size()];
   auto& parts = building.parts;
   parts.push_back({box({-half, 0, 0}, {half, depth, height}), Material::facade, wall});
   parts.push_back({box({-half, -0.28, height - 0.4}, {half, 0.1, height}), Material::metal,
@@ -179,7 +179,8 @@ Object make_sign(double x, double y, double yaw, std::uint32_t seed) {
 void add_hills(std::vector<Object>& objects, const Eigen::Vector2d& x_range, std::uint32_t seed) {
   for (std::uint32_t i = 0; i < 10; ++i) {
     const double x = i % 2 == 0 ? x_range[1] + 120 : x_range[0] - 120;
-    const double y = (i / 2 - 2.) * 70 + 30 * uniform(seed, i);
+    const std::uint32_t pair = i / 2;
+    const double y = (pair - 2.) * 70 + 30 * uniform(seed, i);
     Object hill = standing_at(x, y, 0, hash(seed, 90 + i));
     const double height = 16 + 18 * uniform(seed, 100 + i);
     hill.parts.push_back({ellipsoid({0, 0, -2}, {70, 70, height}), Material::foliage,

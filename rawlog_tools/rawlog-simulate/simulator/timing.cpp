@@ -8,6 +8,7 @@ namespace lidar_upsampling::sim {
 
 std::vector<double> hdl64_elevations() {
   std::vector<double> elevations;
+  elevations.reserve(64);
   for (int i = 0; i < 32; ++i) elevations.push_back((-24.33 + 0.5 * i) * M_PI / 180);
   for (int i = 0; i < 32; ++i) elevations.push_back((-8.33 + i / 3.) * M_PI / 180);
   return elevations;
