@@ -30,11 +30,11 @@ Box2d box_of(const CameraModel& camera, const LidarScan& scan, const std::vector
 // Where moving objects are at the image.
 CoverMap cover_map(const CameraView& view, const std::vector<ObjectMotion>& motions,
                    const LidarScan& scan, const MotionQuery& query) {
-  constexpr double kHalfPatch_px = 8;
+  constexpr double kFinest_px = 5;
   const Neighbourhood sampling = sampling_of(scan, query.camera);
   CoverMap map(query.camera.width, query.camera.height,
-               std::max(kHalfPatch_px, 2 * sampling.half_width_px),
-               std::max(kHalfPatch_px, 2 * sampling.half_height_px));
+               std::max(kFinest_px, sampling.half_width_px),
+               std::max(kFinest_px, sampling.half_height_px));
   for (std::size_t i = 0; i < motions.size(); ++i) {
     if (!moves(motions[i])) continue;
     const Pose T_camera_t_lidar_k = query.T_camera_lidar * motions[i].T_lidar_t_lidar_k;
