@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "lidar_upsampling/objects/hidden_foot.h"
 #include "lidar_upsampling/vision/projection.h"
 
 namespace lidar_upsampling {
@@ -14,15 +15,15 @@ constexpr double kDegree = 3.14159265358979323846 / 180;
 
 bool within(double value, double low, double high) { return value >= low && value <= high; }
 
-bool is_road_user(const ClusterExtent& extent, std::size_t num_points, bool has_ground,
-                  const ClusterDetectorOptions& options) {
+/// But for where it begins above the ground.
+bool has_size_of_road_user(const ClusterExtent& extent, std::size_t num_points, bool has_ground,
+                           const ClusterDetectorOptions& options) {
   if (static_cast<int>(num_points) < options.min_points) return false;
   if (!within(extent.centroid.head<2>().norm(), options.min_range, options.max_range)) return false;
   if (!within(extent.length, options.min_length, options.max_length)) return false;
   if (extent.width > options.max_width) return false;
   if (!has_ground) return within(extent.height(), options.min_height / 2, options.max_height);
-  return extent.bottom <= options.max_bottom &&
-         within(extent.top, options.min_height, options.max_height);
+  return within(extent.top, options.min_height, options.max_height);
 }
 
 const char* class_by_size(const ClusterExtent& extent) {
@@ -81,12 +82,16 @@ std::vector<Detection> ClusterDetector::detect(const DetectorInput& input) {
   for (std::size_t i = 0; i < segments.clusters.size(); ++i) {
     const auto& cluster = segments.clusters[i];
     const ClusterExtent& extent = segments.extents[i];
-    if (!is_road_user(extent, cluster.size(), has_ground, options_)) continue;
+    if (!has_size_of_road_user(extent, cluster.size(), has_ground, options_)) continue;
     if ((input.T_camera_lidar * extent.centroid.cast<double>()).z() <= 0) continue;
     const Seen seen = look_at(i, input);
     if (seen.num_points < options_.min_points ||
         seen.num_points < options_.min_visible * static_cast<double>(cluster.size()) ||
         std::min(seen.box.width(), seen.box.height()) < options_.min_box_size) {
+      continue;
+    }
+    if (has_ground && extent.bottom > options_.max_bottom &&
+        !foot_is_hidden(*input.key_scan, segments.ground, cluster)) {
       continue;
     }
     detections.push_back({seen.box, class_by_size(extent), 1., -1, cluster});

@@ -33,9 +33,10 @@ class Detector {
 /// Road users by the size of their visible points; an object seen from behind is short.
 struct ClusterDetectorOptions {
   int min_points = 15;
-  double min_range = 2.5, max_range = 70;    ///< m, horizontal, of the centroid
-  double min_height = 0.5, max_height = 4;   ///< m, of the highest point above the ground
-  double max_bottom = 1;                     ///< m, of the lowest point above the ground
+  double min_range = 2.5, max_range = 70;   ///< m, horizontal, of the centroid
+  double min_height = 0.5, max_height = 4;  ///< m, of the highest point above the ground
+  double max_bottom =
+      1;  ///< m, of the lowest point above the ground, if nothing hides what is below it
   double min_length = 0.3, max_length = 13;  ///< m, the longer side of the footprint
   double max_width = 3.2;                    ///< m, the shorter side
   int min_box_size = 8;                      ///< px, either side

@@ -2,7 +2,10 @@
 // Copyright (c) 2026, the lidar_upsampling authors
 #include "lidar_upsampling/objects/known_motion.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <utility>
 
 #include "lidar_upsampling/registration/object_registration.h"
 
@@ -10,6 +13,7 @@ namespace lidar_upsampling {
 namespace {
 
 constexpr double kRadian = M_PI / 180;
+constexpr double kMaxRise_m = 0.1;  // between two scans, what a road user may rise or sink
 
 Eigen::Vector3d mean_of(const std::vector<Eigen::Vector3f>& points) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
@@ -17,11 +21,105 @@ Eigen::Vector3d mean_of(const std::vector<Eigen::Vector3f>& points) {
   return sum / static_cast<double>(points.size());
 }
 
+/// The points' mean, and that of those farthest to either side as the sensor sees them: an object
+/// that comes out from behind another keeps one end.
+std::array<Eigen::Vector3d, 3> landmarks(const std::vector<Eigen::Vector3f>& points,
+                                         const Pose& T_k) {
+  const Eigen::Vector3d mean = T_k * mean_of(points);
+  const Eigen::Vector2d side = Eigen::Vector2d(-mean.y(), mean.x()).normalized();
+  std::vector<std::pair<double, Eigen::Vector3d>> across;
+  for (const auto& point : points) {
+    const Eigen::Vector3d at = T_k * point.cast<double>();
+    across.emplace_back(side.dot(at.head<2>()), at);
+  }
+  const std::size_t share = 1 + points.size() / 10;
+  const auto by_side = [](const auto& a, const auto& b) { return a.first < b.first; };
+  std::array<Eigen::Vector3d, 3> result{mean, Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
+  std::sort(across.begin(), across.end(), by_side);
+  for (std::size_t i = 0; i < share; ++i) {
+    result[1] += across[i].second / static_cast<double>(share);
+    result[2] += across[across.size() - 1 - i].second / static_cast<double>(share);
+  }
+  return result;
+}
+
+/// Level steps over ground that the object may have taken, by its outline.
+std::array<Eigen::Vector3d, 3> steps_by_shape(const ObjectScans& scans) {
+  const auto before = landmarks(scans.before, scans.T_lidar_k_lidar_before);
+  auto step = landmarks(scans.now, Pose::Identity());
+  for (std::size_t i = 0; i < step.size(); ++i) {
+    step[i] -= before[i];
+    if (i > 0) step[i].z() = 0;
+  }
+  return step;
+}
+
+ObjectRegistrationOptions quick_registration() {
+  ObjectRegistrationOptions options;
+  options.min_points = 20;
+  options.max_points = 120;
+  options.max_iterations = 15;
+  options.search_m = 0;
+  return options;
+}
+
+bool can_be_registered(const ObjectScans& scans, const ObjectRegistrationOptions& options) {
+  return static_cast<int>(scans.before.size()) >= options.min_points &&
+         static_cast<int>(scans.now.size()) >= options.min_points && scans.dt > 0;
+}
+
+/// The object as it is now put on what was seen before.
+ObjectRegistration register_backwards(const ObjectScans& scans, std::vector<Pose> guesses,
+                                      const ObjectRegistrationOptions& options) {
+  for (Pose& guess : guesses) guess = guess.inverse();
+  ObjectRegistration result =
+      register_object(scans.now, make_surface(scans.before), guesses, options);
+  result.T_target_object = result.T_target_object.inverse();
+  const Eigen::Matrix2d turn = result.T_target_object.linear().topLeftCorner<2, 2>();
+  result.slack = turn * result.slack * turn.transpose();
+  return result;
+}
+
+/// The view with fewer points is likelier to be a part of the other one than the reverse.
+ObjectRegistration register_views(const ObjectScans& scans, const std::vector<Pose>& guesses,
+                                  const ObjectRegistrationOptions& options) {
+  if (scans.before.size() > scans.now.size()) return register_backwards(scans, guesses, options);
+  return register_object(scans.before, make_surface(scans.now), guesses, options);
+}
+
+std::optional<KnownMotion> motion_of(const ObjectRegistration& registration,
+                                     const ObjectScans& scans, Stamp stamp_k,
+                                     const Eigen::Matrix3d& R_rest_lidar_k) {
+  if (registration.status != RegistrationStatus::reliable &&
+      registration.status != RegistrationStatus::ambiguous)
+    return {};
+  // Over ground, in the axes of the lidar frame at k.
+  const Pose T_mov_k = registration.T_target_object * scans.T_lidar_k_lidar_before.inverse();
+  const Eigen::Vector3d centroid = mean_of(scans.now);
+  const Eigen::Vector3d step = centroid - T_mov_k.inverse() * centroid;
+  if (std::abs(step.z()) > kMaxRise_m) return {};
+  KnownMotion known;
+  known.stamp = shifted(stamp_k, -0.5 * scans.dt);
+  known.velocity_at_rest = R_rest_lidar_k * Eigen::Vector3d(step / scans.dt);
+  known.yaw_rate = std::atan2(T_mov_k.linear()(1, 0), T_mov_k.linear()(0, 0)) / scans.dt;
+  // Few points lock into the gaps between rings: where matches lie far apart, so do the answers.
+  constexpr double kRegistrationSigma_m = 0.03;
+  const double sigma = std::hypot(kRegistrationSigma_m, 0.5 * registration.residual_m);
+  const Eigen::Matrix2d turn = R_rest_lidar_k.topLeftCorner<2, 2>();
+  known.velocity_covariance =
+      (sigma * sigma * Eigen::Matrix2d::Identity() + turn * registration.slack * turn.transpose()) /
+      (scans.dt * scans.dt);
+  return known;
+}
+
 }  // namespace
 
 double evidence_of_motion(const KnownMotion& known) {
   constexpr double kFinest = 0.1;  // m/s
-  return std::pow(known.velocity_at_rest.norm() / std::max(known.velocity_sigma, kFinest), 2);
+  const Eigen::Vector2d velocity = known.velocity_at_rest.head<2>();
+  const Eigen::Matrix2d covariance =
+      known.velocity_covariance + kFinest * kFinest * Eigen::Matrix2d::Identity();
+  return velocity.dot(covariance.inverse() * velocity);
 }
 
 Twist rate_over_ground(const KnownMotion& known, const Eigen::Matrix3d& R_lidar_k_rest,
@@ -40,14 +138,17 @@ MotionPrior expect_motion(const std::optional<KnownMotion>& known, Stamp key_sta
   prior.tilt_sigma = kRadian * (options.tilt_sigma_deg + options.tilt_rate_sigma_deg * dt);
   prior.yaw_sigma = options.yaw_rate_sigma * dt + kRadian * options.tilt_sigma_deg;
   if (!known) {
-    prior.position_sigma_m = options.unknown_speed_sigma * dt;
+    prior.position_covariance =
+        std::pow(options.unknown_speed_sigma * dt, 2) * Eigen::Matrix2d::Identity();
     prior.yaw_sigma += 3 * options.yaw_rate_sigma * dt;
     return prior;
   }
   prior.T_mov = exp_se3(Twist(rate_over_ground(*known, R_lidar_k_rest, centroid) * dt));
   const double age = seconds_between(known->stamp, key_stamp) + 0.5 * dt;
-  const double speed_sigma = std::hypot(known->velocity_sigma, options.acceleration_sigma * age);
-  prior.position_sigma_m = speed_sigma * dt + 0.005;
+  const Eigen::Matrix2d turn = R_lidar_k_rest.topLeftCorner<2, 2>();
+  prior.position_covariance = dt * dt * turn * known->velocity_covariance * turn.transpose() +
+                              (std::pow(options.acceleration_sigma * age * dt, 2) + 0.005 * 0.005) *
+                                  Eigen::Matrix2d::Identity();
   return prior;
 }
 
@@ -60,42 +161,30 @@ PosePrior pose_prior(const MotionPrior& prior, const Pose& T_camera_t_lidar_k_eg
   const Eigen::Matrix3d R_lidar_camera = T_camera_t_lidar_k_ego.linear().transpose();
   const Eigen::Vector3d c = result.T_mean * centroid;
   const Eigen::Vector3d turn(1 / prior.tilt_sigma, 1 / prior.tilt_sigma, 1 / prior.yaw_sigma);
-  const Eigen::Vector3d step(1 / prior.position_sigma_m, 1 / prior.position_sigma_m,
-                             1 / prior.height_sigma_m);
+  Eigen::Matrix3d step = Eigen::Matrix3d::Zero();
+  step.topLeftCorner<2, 2>() = Eigen::Matrix2d(prior.position_covariance.inverse()).llt().matrixU();
+  step(2, 2) = 1 / prior.height_sigma_m;
   result.sqrt_information.topLeftCorner<3, 3>() = turn.asDiagonal() * R_lidar_camera;
-  result.sqrt_information.bottomLeftCorner<3, 3>() = step.asDiagonal() * R_lidar_camera * skew(-c);
-  result.sqrt_information.bottomRightCorner<3, 3>() = step.asDiagonal() * R_lidar_camera;
+  result.sqrt_information.bottomLeftCorner<3, 3>() = step * R_lidar_camera * skew(-c);
+  result.sqrt_information.bottomRightCorner<3, 3>() = step * R_lidar_camera;
   return result;
 }
 
 std::optional<KnownMotion> measure_between_scans(const ObjectScans& scans, Stamp stamp_k,
                                                  const Eigen::Matrix3d& R_rest_lidar_k) {
-  ObjectRegistrationOptions options;
-  options.min_points = 20;
-  options.max_points = 120;
-  options.max_iterations = 15;
-  options.search_m = 0;
-  if (static_cast<int>(scans.before.size()) < options.min_points ||
-      static_cast<int>(scans.now.size()) < options.min_points || scans.dt <= 0)
-    return {};
-  const Surface target = make_surface(scans.now);
+  const ObjectRegistrationOptions options = quick_registration();
+  if (!can_be_registered(scans, options)) return {};
   const Pose& T_ego = scans.T_lidar_k_lidar_before;
-  const Eigen::Vector3d centroid = T_ego * mean_of(scans.before);
-  const Pose T_by_centroids = Eigen::Translation3d(mean_of(scans.now) - centroid) * T_ego;
-  const ObjectRegistration registration = register_object(
-      scans.before, target, {T_ego, T_ego * scans.T_mov_guess, T_by_centroids}, options);
-  if (registration.status != RegistrationStatus::reliable) return {};
-
-  // Over ground, in the axes of the lidar frame at k.
-  const Pose T_mov_k = registration.T_target_object * T_ego.inverse();
-  KnownMotion known;
-  known.stamp = shifted(stamp_k, -0.5 * scans.dt);
-  known.velocity_at_rest =
-      R_rest_lidar_k * Eigen::Vector3d((T_mov_k * centroid - centroid) / scans.dt);
-  known.yaw_rate = std::atan2(T_mov_k.linear()(1, 0), T_mov_k.linear()(0, 0)) / scans.dt;
-  constexpr double kRegistrationSigma_m = 0.03;
-  known.velocity_sigma = std::hypot(kRegistrationSigma_m, registration.spread_m) / scans.dt;
-  return known;
+  std::vector<Pose> guesses{T_ego, T_ego * scans.T_mov_guess};
+  const auto steps = steps_by_shape(scans);
+  guesses.emplace_back(Eigen::Translation3d(steps[0]) * T_ego);
+  ObjectRegistration registration = register_views(scans, guesses, options);
+  if (registration.status == RegistrationStatus::poor_overlap) {
+    guesses.emplace_back(Eigen::Translation3d(steps[1]) * T_ego);
+    guesses.emplace_back(Eigen::Translation3d(steps[2]) * T_ego);
+    registration = register_views(scans, guesses, options);
+  }
+  return motion_of(registration, scans, stamp_k, R_rest_lidar_k);
 }
 
 }  // namespace lidar_upsampling

@@ -14,9 +14,9 @@ namespace lidar_upsampling {
 /// What is known of an object's motion before it is looked at, in a frame at rest.
 struct KnownMotion {
   Stamp stamp;  ///< of the instant it was measured at
-  Eigen::Vector3d velocity_at_rest = Eigen::Vector3d::Zero();  ///< m/s
-  double yaw_rate = 0;                                         ///< rad/s
-  double velocity_sigma = 0;                                   ///< m/s, per axis
+  Eigen::Vector3d velocity_at_rest = Eigen::Vector3d::Zero();     ///< m/s
+  double yaw_rate = 0;                                            ///< rad/s
+  Eigen::Matrix2d velocity_covariance = Eigen::Matrix2d::Zero();  ///< (m/s)^2, level
 };
 
 /// @brief Of the object moving at all when it was measured: a chi-square, of two degrees of freedom
@@ -43,7 +43,8 @@ struct MotionPriorOptions {
 /// @brief What to expect of an object's motion over ground from the key scan on, as a Gaussian.
 struct MotionPrior {
   Pose T_mov = Pose::Identity();  ///< mean, in the lidar frame at k
-  double position_sigma_m = 0;    ///< of the centroid in the ground plane, per axis
+  Eigen::Matrix2d position_covariance =
+      Eigen::Matrix2d::Zero();  ///< m^2, of the centroid in the ground plane
   double height_sigma_m = 0;
   double yaw_sigma = 0;   ///< rad
   double tilt_sigma = 0;  ///< rad

@@ -57,7 +57,9 @@ void fall_back(ObjectMotion& motion, const MotionQuery& query, MotionStatus stat
   motion.status = status;
   if (!options.prior.enabled || query.known_evidence < options.static_significance) return;
   set_motion(motion, query.T_lidar_t_lidar_k * query.prior.T_mov, query);
-  motion.position_sigma_m = query.prior.position_sigma_m;
+  motion.position_sigma_m = std::sqrt(Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(
+                                          query.prior.position_covariance, Eigen::EigenvaluesOnly)
+                                          .eigenvalues()[1]);
   motion.status = MotionStatus::predicted;
 }
 

@@ -98,6 +98,19 @@ void add_level(const Problem& problem, const Pose& T, Matrix6d& H, Twist& b) {
   b[5] -= weight(problem.options.height_sigma_m) * rise;
 }
 
+double residual_of(const Problem& problem, const Pose& T_target_object) {
+  double sum = 0;
+  for (const auto& point : problem.points) {
+    const Eigen::Vector3f at = T_target_object.cast<float>() * point;
+    const auto nearest = problem.target.index.nearest(at);
+    const Eigen::Vector3f& normal = problem.target.normals[nearest.index];
+    const Eigen::Vector3f error = at - problem.target.index.points()[nearest.index];
+    const double sq = normal.isZero() ? error.squaredNorm() : std::pow(normal.dot(error), 2);
+    sum += std::min(sq, kScoreCut * kScoreCut);
+  }
+  return std::sqrt(sum / static_cast<double>(problem.points.size()));
+}
+
 Candidate converge(const Problem& problem, const Pose& guess) {
   Pose T = guess;
   double scale = 4 * problem.options.kernel_m;
@@ -158,18 +171,28 @@ Candidate best_candidate(const Problem& problem, const std::vector<Pose>& guesse
   return searched.score < 0.8 * best.score ? searched : best;
 }
 
-double spread_of(const Problem& problem, const Candidate& best) {
+struct Ambiguity {
+  double spread = 0;
+  Eigen::Matrix2d slack = Eigen::Matrix2d::Zero();
+};
+
+/// A start that comes back part of the way speaks of a weak pull there, one that stays of none.
+Ambiguity ambiguity_of(const Problem& problem, const Candidate& best) {
   constexpr double kShift = 0.2;
   constexpr std::array<std::array<double, 2>, 4> kShifts{
       {{kShift, 0}, {-kShift, 0}, {0, kShift}, {0, -kShift}}};
-  double spread = 0;
+  Ambiguity result;
   for (const auto& shift : kShifts) {
     const Candidate again = converge(problem, shifted_by(best.T, shift[0], shift[1]));
     if (again.score < 1.15 * best.score + 0.005) {
-      spread = std::max(spread, (again.T * problem.centroid - best.T * problem.centroid).norm());
+      const Eigen::Vector3d astray = again.T * problem.centroid - best.T * problem.centroid;
+      result.spread = std::max(result.spread, astray.norm());
+      const double pull = std::max(0.1, 1 - astray.head<2>().norm() / kShift);
+      const Eigen::Vector2d deviation = astray.head<2>() / pull;
+      result.slack += 0.5 * deviation * deviation.transpose();  // every axis is tried both ways
     }
   }
-  return spread;
+  return result;
 }
 
 double overlap_of(const Problem& problem, const Pose& T_target_object) {
@@ -224,7 +247,10 @@ ObjectRegistration register_object(const Points& points_object, const Surface& t
     result.status = RegistrationStatus::poor_overlap;
     return result;
   }
-  result.spread_m = spread_of(problem, best);
+  result.residual_m = residual_of(problem, best.T);
+  const Ambiguity ambiguity = ambiguity_of(problem, best);
+  result.spread_m = ambiguity.spread;
+  result.slack = ambiguity.slack;
   result.status = result.spread_m > options.max_spread_m ? RegistrationStatus::ambiguous
                                                          : RegistrationStatus::reliable;
   return result;

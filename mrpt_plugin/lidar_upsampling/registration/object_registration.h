@@ -32,9 +32,13 @@ enum class RegistrationStatus { reliable, too_few_points, poor_overlap, ambiguou
 struct ObjectRegistration {
   RegistrationStatus status = RegistrationStatus::too_few_points;
   Pose T_target_object = Pose::Identity();
-  double overlap = 0;   ///< share of the object's points that are covered
-  double score_m = 0;   ///< root mean squared distance to the nearest target point, cut at 0.5 m
-  double spread_m = 0;  ///< how far the centroid goes astray from shifted starts that fit as well
+  double overlap = 0;     ///< share of the object's points that are covered
+  double score_m = 0;     ///< root mean squared distance to the nearest target point, cut at 0.5 m
+  double residual_m = 0;  ///< the same distance across the surface where the target's is known
+  double spread_m = 0;    ///< how far the centroid goes astray from shifted starts that fit as well
+  Eigen::Matrix2d slack =
+      Eigen::Matrix2d::Zero();  ///< m^2, level covariance told by these starts:
+                                ///< huge along surfaces that slide on themselves
 };
 
 /// @brief The rigid motion of one object's points onto a whole scan: robust ICP, point to plane
