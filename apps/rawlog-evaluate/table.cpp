@@ -62,7 +62,7 @@ std::string scan_block(const char* title, const Figures& figures, ErrorSummary R
 std::string flow_block(const Figures& figures) {
   if (figures.rows[Row::ours].epe_three_way_m.count == 0) return {};
   std::string block =
-      heading("scene flow, mean end point error, m", {"moving", "standing", "ground", "3-way"});
+      heading("scene flow, mean end point error, m", {"moving", "standing", "rest", "3-way"});
   for (const Row row : kRows) {
     const RowFigures& f = figures.rows[row];
     if (f.epe_three_way_m.count == 0) continue;

@@ -18,6 +18,7 @@
 #include "lidar_upsampling/objects/tracks.h"
 #include "lidar_upsampling/registration/scan_registration.h"
 #include "lidar_upsampling/scan/compose.h"
+#include "lidar_upsampling/scan/resample.h"
 #include "lidar_upsampling/vision/klt.h"
 
 namespace lidar_upsampling {
@@ -59,6 +60,7 @@ struct Config : public mrpt::config::CLoadableOptions {
   PointTrackOptions point_tracks;
   KltOptions klt;
   ObjectMotionOptions object_motion;
+  ResampleOptions resampling;
 
   /// @throw std::invalid_argument naming section, key and value: an unknown key in a section of
   /// ours, a value of the wrong type or outside its range.

@@ -26,7 +26,9 @@ void visit_main(Config& c, SettingVisitor& v) {
   v.word("mode", c.mode, {"causal"}, "causal: only the past is used, as a live system must");
   v.word("preset", c.preset, {"default", "paper"},
          "paper: exactly the published method, every object moved by its own pose");
-  v.word("resample", c.resample, {"none"}, "none: every virtual point is a real one, moved");
+  v.word("resample", c.resample, {"none", "beam"},
+         "none: every virtual point is a real one, moved; beam: as the sensor would have measured "
+         "it, on its own beams");
   v.choice_of("outside_view", c.compose.outside_view,
               {{"ego", OutsideView::ego}, {"drop", OutsideView::drop}},
               "points that no camera sees: moved by the ego-motion, or left out");
@@ -190,6 +192,21 @@ void visit_motion(Config& c, SettingVisitor& v) {
   v.number("tilt_sigma_deg", p.tilt_sigma_deg, kPositive, "vehicles stay level");
 }
 
+void visit_resampling(Config& c, SettingVisitor& v) {
+  ResampleOptions& r = c.resampling;
+  v.section("resample", "The moved scan on the sensor's own beams, with resample = beam.");
+  v.number("min_motion_m", r.min_motion_m, kNotNegative,
+           "where nothing moves as far on average, points stay as they are");
+  v.number("max_step_m", r.patches.max_step_m, kPositive,
+           "in range between neighbouring points of one surface");
+  v.number("max_step_per_range", r.patches.max_step_per_range, kNotNegative,
+           "added per metre from the sensor");
+  v.number("max_bend_m", r.patches.max_bend_m, kPositive,
+           "of a steep surface from straight, over three points");
+  v.number("max_bend_per_range", r.patches.max_bend_per_range, kNotNegative,
+           "added per metre from the sensor");
+}
+
 }  // namespace
 
 void visit_settings(Config& config, SettingVisitor& visitor) {
@@ -200,6 +217,7 @@ void visit_settings(Config& config, SettingVisitor& visitor) {
   visit_scene(config, visitor);
   visit_vision(config, visitor);
   visit_motion(config, visitor);
+  visit_resampling(config, visitor);
 }
 
 }  // namespace lidar_upsampling

@@ -127,6 +127,10 @@ std::optional<VirtualScan> LidarUpsampler::flush() {
   VirtualScan scan = compose_virtual_scan(key_->scan, std::move(motion),
                                           config_.virtual_label(key_->scan.label), config_.compose);
   watch.stop();
+  if (config_.resample == "beam") {
+    const Stopwatch watch_beams(timing_, "resampling");
+    scan = resample_on_beams(key_->scan, std::move(scan), config_.resampling).scan;
+  }
   scan.T_rest_lidar_t = key_->T_rest_lidar_k * scan.T_lidar_t_lidar_k.inverse();
   scan.timing = std::exchange(timing_, {});
   return scan;
@@ -247,7 +251,8 @@ void LidarUpsampler::learn(const std::vector<ObjectMotion>& objects, Stamp insta
     KnownMotion& known = known_motions_[object.track_id];
     known = {};
     known.stamp = instant;
-    known.velocity_sigma = object.position_sigma_m / seconds_between(key_->scan.stamp, instant);
+    const double sigma = object.position_sigma_m / seconds_between(key_->scan.stamp, instant);
+    known.velocity_covariance = sigma * sigma * Eigen::Matrix2d::Identity();
     if (!moving) continue;
     known.velocity_at_rest = key_->T_rest_lidar_k.linear() * object.velocity_lidar_k;
     known.yaw_rate = object.yaw_rate;

@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the lidar_upsampling authors
+#include "lidar_upsampling/scan/beam_pattern.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace lidar_upsampling {
+namespace {
+
+constexpr float kTurn = 2 * static_cast<float>(M_PI);
+constexpr std::size_t kMaxRings = 256;  // more are the rows of a depth picture
+
+float median(std::vector<float> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+// Of two azimuths in [0, 2 pi), the short way round.
+float turn_between(float from, float to) {
+  const float turn = to - from;
+  if (turn > kTurn / 2) return turn - kTurn;
+  return turn < -kTurn / 2 ? turn + kTurn : turn;
+}
+
+// One ring's points and what they say about its laser.
+struct Ring {
+  std::vector<int> points;
+  std::vector<float> azimuth;
+  BeamRow row;
+  float scatter = 0;  // median deviation of the elevation's tangent
+  float pitch = 0;
+};
+
+std::vector<Ring> split_by_ring(const LidarScan& scan) {
+  std::vector<Ring> rings;
+  for (int i = 0; i < static_cast<int>(scan.size()); ++i) {
+    if (scan.ring[i] >= rings.size()) rings.resize(scan.ring[i] + std::size_t{1});
+    rings[scan.ring[i]].points.push_back(i);
+  }
+  const auto is_empty = [](const Ring& ring) { return ring.points.empty(); };
+  rings.erase(std::remove_if(rings.begin(), rings.end(), is_empty), rings.end());
+  return rings;
+}
+
+void sort_by_azimuth(const LidarScan& scan, Ring& ring) {
+  std::vector<std::pair<float, int>> sorted;
+  sorted.reserve(ring.points.size());
+  for (const int i : ring.points) {
+    const float azimuth = std::atan2(scan.points[i].y(), scan.points[i].x());
+    sorted.emplace_back(
+        azimuth < 0 ? std::min(azimuth + kTurn, std::nextafter(kTurn, 0.F)) : azimuth, i);
+  }
+  if (!std::is_sorted(sorted.begin(), sorted.end())) std::sort(sorted.begin(), sorted.end());
+  std::vector<float> steps;
+  for (std::size_t k = 0; k < sorted.size(); ++k) {
+    ring.points[k] = sorted[k].second;
+    ring.azimuth.push_back(sorted[k].first);
+    if (k > 0) steps.push_back(sorted[k].first - sorted[k - 1].first);
+  }
+  if (!steps.empty()) ring.pitch = median(std::move(steps));
+}
+
+// height / distance = tan(elevation) + origin_height / distance: a line, fitted again without what
+// is far off it.
+void fit_laser(const LidarScan& scan, Ring& ring) {
+  constexpr std::size_t kEnough = 500;
+  constexpr double kSmallest = 1e-4;               // spread of 1 / distance that tells a height
+  constexpr double kTallest = 0.5;                 // metres, of a unit's optics
+  std::vector<std::pair<double, double>> samples;  // 1 / distance, height / distance
+  for (std::size_t k = 0; k < ring.points.size(); k += ring.points.size() / kEnough + 1) {
+    const Eigen::Vector3f& p = scan.points[ring.points[k]];
+    const double distance = std::max(0.1F, p.head<2>().norm());
+    samples.emplace_back(1 / distance, p.z() / distance);
+  }
+  double height = 0, tangent = 0, limit = std::numeric_limits<double>::infinity();
+  for (int round = 0; round < 3; ++round) {
+    double n = 0, sx = 0, sy = 0, sxx = 0, sxy = 0;
+    for (const auto& [x, y] : samples) {
+      if (std::abs(y - tangent - x * height) > limit) continue;
+      n += 1, sx += x, sy += y, sxx += x * x, sxy += x * y;
+    }
+    height = (sxy - sx * sy / n) / (sxx - sx * sx / n + n * kSmallest * kSmallest);
+    if (std::abs(height) > kTallest) height = 0;
+    tangent = (sy - height * sx) / n;
+    std::vector<float> residuals;
+    residuals.reserve(samples.size());
+    for (const auto& [x, y] : samples)
+      residuals.push_back(static_cast<float>(std::abs(y - tangent - x * height)));
+    ring.scatter = median(std::move(residuals));
+    limit = 3 * static_cast<double>(ring.scatter) + 1e-6;
+  }
+  ring.row.origin_height = static_cast<float>(height);
+  ring.row.tan_elevation = static_cast<float>(tangent);
+}
+
+// Walks along a row beside a walk along another one, both in order of azimuth.
+class NearestInRow {
+ public:
+  NearestInRow(const BeamPattern& pattern, int row) : pattern_(pattern) {
+    if (row < 0 || row >= pattern.num_rows()) return;
+    begin_ = next_ = pattern.rows[row].begin;
+    end_ = pattern.rows[row].end;
+  }
+
+  // The point nearest in azimuth, at most `reach` away; -1: none. Azimuths must not fall.
+  int operator()(float azimuth, float reach) {
+    if (begin_ == end_) return -1;
+    while (next_ < end_ && pattern_.azimuth[pattern_.order[next_]] < azimuth) ++next_;
+    int best = -1;
+    for (const int k : {next_ == end_ ? begin_ : next_, (next_ == begin_ ? end_ : next_) - 1}) {
+      const int i = pattern_.order[k];
+      const float gap = std::abs(turn_between(azimuth, pattern_.azimuth[i]));
+      if (gap > reach) continue;
+      reach = gap;
+      best = i;
+    }
+    return best;
+  }
+
+ private:
+  const BeamPattern& pattern_;
+  int begin_ = 0, end_ = 0, next_ = 0;
+};
+
+// The rings, upwards, as rows of the pattern.
+BeamPattern joined(std::vector<Ring> rings, std::size_t num_points) {
+  std::stable_sort(rings.begin(), rings.end(), [](const Ring& a, const Ring& b) {
+    return a.row.tan_elevation < b.row.tan_elevation;
+  });
+  BeamPattern pattern;
+  pattern.azimuth.resize(num_points);
+  std::vector<float> pitches, scatters, gaps;
+  for (Ring& ring : rings) {
+    if (!pattern.rows.empty())
+      gaps.push_back(ring.row.tan_elevation - pattern.rows.back().tan_elevation);
+    if (ring.pitch > 0) pitches.push_back(ring.pitch);
+    scatters.push_back(ring.scatter);
+    ring.row.begin = static_cast<int>(pattern.order.size());
+    pattern.order.insert(pattern.order.end(), ring.points.begin(), ring.points.end());
+    ring.row.end = static_cast<int>(pattern.order.size());
+    pattern.rows.push_back(ring.row);
+    for (std::size_t k = 0; k < ring.points.size(); ++k)
+      pattern.azimuth[ring.points[k]] = ring.azimuth[k];
+  }
+  if (!pitches.empty()) pattern.azimuth_pitch = median(std::move(pitches));
+  pattern.scatter = median(std::move(scatters)) / std::max(1e-6F, median(std::move(gaps)));
+  return pattern;
+}
+
+}  // namespace
+
+int BeamPattern::first_row_above(float distance, float height, int guess) const {
+  int row = guess;
+  while (row < num_rows() && rows[row].height_at(distance) < height) ++row;
+  while (row > 0 && rows[row - 1].height_at(distance) >= height) --row;
+  return row;
+}
+
+std::optional<BeamPattern> find_beam_pattern(const LidarScan& scan) {
+  constexpr float kMaxScatter = 1;
+  if (scan.ring.size() != scan.size() || scan.size() == 0) return {};
+  std::vector<Ring> rings = split_by_ring(scan);
+  if (rings.size() < 2 || rings.size() > kMaxRings) return {};
+  tbb::parallel_for(std::size_t{0}, rings.size(), [&](std::size_t i) {
+    sort_by_azimuth(scan, rings[i]);
+    fit_laser(scan, rings[i]);
+  });
+  BeamPattern pattern = joined(std::move(rings), scan.size());
+  if (pattern.azimuth_pitch <= 0 || pattern.scatter > kMaxScatter) return {};
+  return pattern;
+}
+
+std::vector<BeamNeighbours> find_neighbours(const BeamPattern& pattern, int row) {
+  const float along = 2.5F * pattern.azimuth_pitch, across = 1.5F * pattern.azimuth_pitch;
+  const BeamRow& own = pattern.rows[row];
+  const int size = own.end - own.begin;
+  NearestInRow below(pattern, row - 1), lower(pattern, row - 2);
+  NearestInRow above(pattern, row + 1), higher(pattern, row + 2);
+  const auto at = [&](int k) { return pattern.order[own.begin + (k + 2 * size) % size]; };
+  std::vector<BeamNeighbours> neighbours(size);
+  for (int k = 0; k < size; ++k) {
+    BeamNeighbours& found = neighbours[k];
+    const float azimuth = pattern.azimuth[at(k)];
+    for (const int step : {1, 2}) {
+      const float to_left = turn_between(azimuth, pattern.azimuth[at(k + step)]);
+      const float to_right = turn_between(pattern.azimuth[at(k - step)], azimuth);
+      const float reach = static_cast<float>(step) * along;
+      if (to_left > 0 && to_left <= reach) found.left[step - 1] = at(k + step);
+      if (to_right > 0 && to_right <= reach) found.right[step - 1] = at(k - step);
+    }
+    found.down = {below(azimuth, across), lower(azimuth, across)};
+    found.up = {above(azimuth, across), higher(azimuth, across)};
+  }
+  return neighbours;
+}
+
+}  // namespace lidar_upsampling

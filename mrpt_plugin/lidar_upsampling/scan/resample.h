@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the lidar_upsampling authors
+#pragma once
+
+#include "lidar_upsampling/scan/patches.h"
+#include "lidar_upsampling/types.h"
+
+namespace lidar_upsampling {
+
+struct ResampleOptions {
+  double min_motion_m = 0.03;  ///< nothing is done where nothing has moved as far, on average
+  double overlap = 0.1;  ///< of patches, share of their reach: closes the cracks of a moved surface
+  double max_gap = 1.5;  ///< a beam between patches takes one this near, in units of its reach
+  double same_surface_m = 0.1;  ///< hits this much behind the first one are averaged with it
+  double same_surface_per_range = 0.03;  ///< added per metre from the sensor
+  PatchOptions patches;
+};
+
+enum class ResampleStatus {
+  done,
+  little_motion,  ///< the scan is as it was: it lies on the beams anyway
+  no_beams        ///< the scan is as it was: no rings, or not a spinning LiDAR's
+};
+
+struct ResampledScan {
+  VirtualScan scan;
+  ResampleStatus status = ResampleStatus::done;
+};
+
+/// @brief The virtual scan as the sensor would have measured it: each beam of the key scan ends on
+/// the first surface in its way. Every moved point stands for a patch of its surface (see
+/// patches.h), so a moved object hides what is behind it, no surface leads over a depth edge, and
+/// rings lie where they belong. Beams that hit nothing that the key scan has seen give no point;
+/// beams that came back empty then may hit something now. Points are ordered by beam; ring, column
+/// and time are the beam's, intensity, source and object those of the patch that was hit.
+/// @param moved of `key_scan`, by compose_virtual_scan(). @throw std::invalid_argument it is not.
+[[nodiscard]] ResampledScan resample_on_beams(const LidarScan& key_scan, VirtualScan moved,
+                                              const ResampleOptions& options = {});
+
+}  // namespace lidar_upsampling
