@@ -25,7 +25,7 @@ figure() {
 
 if [ -n "$drive" ]; then
   for keep in 2 3 4; do
-    measure "drive-$keep" "KITTI drive 0052, every ${keep}th scan kept" drive "$drive" "$keep" --protocol kitti-odometry
+    measure "drive-$keep" "KITTI drive 0052, one scan of $keep kept" drive "$drive" "$keep" --protocol kitti-odometry
   done
 fi
 for file in config/scenarios/*.ini; do
