@@ -36,3 +36,30 @@ densify_withheld() {
 print_table() {
   "$(tool rawlog-evaluate)" "${comparisons[@]}" --config "$config" --json "$out/errors.json" "$@"
 }
+
+# sequences_table <folder with sequences/ and poses/> [sequence ...]: this protocol's table on KITTI odometry.
+sequences_table() {
+  local root=${1:?usage: $0 <folder with sequences/ and poses/> [sequence ...]} sequence; shift
+  need_folder "$root/sequences" "the KITTI odometry data set"
+  config=$project/config/kitti.ini
+  [ $# -gt 0 ] || set -- 02 03 04 05 06 07 08 09 10
+  for sequence in "$@"; do
+    "$(tool kitti2rawlog)" --sequence "$root/sequences/$sequence" --output "$out/$sequence.rawlog" --overwrite
+    densify_withheld "$sequence"
+  done
+  print_table --protocol "$protocol"
+}
+
+# tracking_logs_table <folder of tracking logs> [log ...]: this protocol's table on Argoverse 1.
+tracking_logs_table() {
+  local root=${1:?usage: $0 <folder of tracking logs> [log ...]} log; shift
+  need_folder "$root" "Argoverse 1 tracking logs"
+  [ $# -gt 0 ] || { cd "$root"; set -- *; cd - > /dev/null; }
+  for log in "$@"; do
+    "$(tool argoverse2rawlog)" --log "$root/$log" --output "$out/$log.rawlog" --boxes "$out/${log}_boxes.csv" \
+      --truth-objects "$out/${log}_objects.csv" --overwrite
+    densify_withheld "$log" --detections "$out/${log}_boxes.csv"
+    comparisons+=(--truth-objects "$out/${log}_objects.csv")
+  done
+  print_table --protocol "$protocol"
+}
