@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the lidar_upsampling authors
+#pragma once
+
+#include <mrpt/obs/CObservation.h>
+
+#include <chrono>
+#include <condition_variable>
+#include <cstddef>
+#include <deque>
+#include <mutex>
+#include <optional>
+
+#include "lidar_upsampling/types.h"
+
+namespace lidar_upsampling {
+
+using SteadyTime = std::chrono::steady_clock::time_point;
+
+/// What the upsampler does with an observation, in the order that helps it most among those of one
+/// instant: `other` ones tell of the ego-motion at most.
+enum class Role { other, scan, image };
+
+/// A real observation on its way through the sensor.
+struct Arrived {
+  mrpt::obs::CObservation::Ptr observation;
+  Role role = Role::other;
+  SteadyTime time = std::chrono::steady_clock::now();
+  bool is_late = false;  ///< passed on as it is: there is no time left to work on it
+};
+
+struct QueueOptions {
+  std::size_t max_waiting = 3;  ///< scans of the LiDAR, and images of each camera
+  /// An observation is held back so long for ones of an earlier stamp that arrive after it.
+  std::chrono::duration<double, std::milli> merge_window{0};
+};
+
+/// @brief Observations in the order of their stamps; all that go in come out. What is bounded is
+/// the work: if more than `max_waiting` scans or images of a label wait, the oldest of them is
+/// marked late.
+class WorkQueue {
+ public:
+  explicit WorkQueue(const QueueOptions& options) : options_(options) {}
+
+  void push(Arrived arrived);
+  /// @brief Waits until a further scan or image makes none late. For sources that can wait.
+  void wait_for_room();
+  /// @return the next observation as soon as there is one whose time has come; none at the end.
+  [[nodiscard]] std::optional<Arrived> pop();
+
+  /// No more is let in; what is in still comes out.
+  void close();
+  /// Nobody will ask any more: whoever waits goes on.
+  void abandon();
+
+ private:
+  [[nodiscard]] bool goes_before(const Arrived& a, const Arrived& b) const;
+  [[nodiscard]] std::size_t num_waiting(const std::string& label, SteadyTime now) const;
+  void mark_oldest_late(const std::string& label);
+  [[nodiscard]] std::optional<SteadyTime> next_due() const;
+  [[nodiscard]] SteadyTime due(const Arrived& arrived) const;
+
+  QueueOptions options_;
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::deque<Arrived> waiting_;
+  bool closed_ = false, abandoned_ = false;
+};
+
+}  // namespace lidar_upsampling
