@@ -5,13 +5,14 @@
 set -euo pipefail
 
 packages=(
-  g++ cmake ninja-build
+  g++ cmake ninja-build help2man
   libmrpt-dev mrpt-apps libopencv-dev libceres-dev libeigen3-dev libgeographiclib-dev libtbb-dev
   libnanoflann-dev libcli11-dev nlohmann-json3-dev libtinyxml2-dev zlib1g-dev gnuplot-nox
 )
 case "${1:-}" in
   "") ;;
-  --tests) packages+=(libgtest-dev libbenchmark-dev clang-format xvfb x11-apps chromium) ;;
+  --tests) packages+=(libgtest-dev libbenchmark-dev clang-format xvfb x11-apps chromium
+      dpkg-dev lintian man-db) ;;
   *) echo "usage: $0 [--tests]" >&2; exit 2 ;;
 esac
 

@@ -1,5 +1,6 @@
 include_guard(GLOBAL)
 include(GNUInstallDirs)
+include(${PROJECT_SOURCE_DIR}/share/cmake/ToolDocs.cmake)
 
 # A command-line tool: its sources, the library, and what apps/common/tool_main.h needs.
 function(lidar_upsampling_add_tool name)
@@ -10,4 +11,5 @@ function(lidar_upsampling_add_tool name)
   target_link_libraries(${name} PRIVATE lidar_upsampling_options ${ARG_LIBRARIES}
     lidar_upsampling::lidar_upsampling CLI11::CLI11)
   install(TARGETS ${name} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+  lidar_upsampling_document_tool(${name})
 endfunction()

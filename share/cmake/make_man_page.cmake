@@ -1,0 +1,10 @@
+# The man page OUTPUT.gz of TOOL, whose first line of --help says what it does.
+get_filename_component(folder ${OUTPUT} DIRECTORY)
+file(MAKE_DIRECTORY ${folder})
+execute_process(COMMAND ${TOOL} --help OUTPUT_VARIABLE help COMMAND_ERROR_IS_FATAL ANY)
+string(REGEX MATCH "^[^\n]*" summary "${help}")
+string(REGEX REPLACE "\\.$" "" summary "${summary}")
+execute_process(COMMAND ${HELP2MAN} --no-info "--name=${summary}" "--source=lidar_upsampling ${VERSION}"
+    --no-discard-stderr --output=${OUTPUT} ${TOOL}
+  COMMAND_ERROR_IS_FATAL ANY)
+execute_process(COMMAND gzip --best --no-name --force ${OUTPUT} COMMAND_ERROR_IS_FATAL ANY)
