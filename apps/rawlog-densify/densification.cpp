@@ -15,20 +15,9 @@ namespace lidar_upsampling {
 using mrpt::obs::CObservation;
 using mrpt::obs::CObservationImage;
 
-namespace {
-
-std::vector<std::string> labels_of_overrides(const RigOverrides& rig) {
-  std::vector<std::string> labels;
-  for (const auto& [label, camera] : rig.cameras)
-    if (camera.fx && camera.fy && camera.cx && camera.cy) labels.push_back(label);
-  return labels;
-}
-
-}  // namespace
-
 Densification::Densification(const DensifyJob& job, const LogIndex& index, DensifyReport& report)
     : job_(job), report_(report), upsampler_(job.config) {
-  const StreamSelection streams = select_streams(index, job.config, labels_of_overrides(job.rig));
+  const StreamSelection streams = select_streams(index, job.config, labels_of_calibrated(job.rig));
   lidar_label_ = streams.lidar->label;
   std::vector<std::string> labels;
   for (const StreamInfo* camera : streams.cameras) labels.push_back(camera->label);
@@ -40,6 +29,7 @@ Densification::Densification(const DensifyJob& job, const LogIndex& index, Densi
   for (const GnssSample& sample : index.gnss) upsampler_.ego_motion().add_gnss(sample);
   report.ego_source = to_string(upsampler_.ego_motion().source());
   if (!job.pictures.empty()) pictures_.emplace(job.pictures);
+  if (job.config.mode == "offline") ahead_.emplace(job.input, lidar_label_, job.rig);
 }
 
 std::optional<VirtualScan> Densification::feed(const CObservation::Ptr& observation) {
@@ -68,7 +58,11 @@ std::optional<VirtualScan> Densification::feed_scan(const CObservation::Ptr& obs
   }
   apply(job_.rig, *scan);
   if (pictures_) pictures_->real_scan(*scan);
-  return upsampler_.insert_scan(std::move(*scan));
+  const Stamp stamp = scan->stamp;
+  auto waiting = upsampler_.insert_scan(std::move(*scan));
+  if (ahead_)
+    if (const auto next = ahead_->after(stamp)) upsampler_.expect_next(*next);
+  return waiting;
 }
 
 std::optional<VirtualScan> Densification::feed_image(CObservation& observation) {

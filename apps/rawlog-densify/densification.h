@@ -12,6 +12,7 @@
 #include "lidar_upsampling/io/log_index.h"
 #include "lidar_upsampling/upsampler.h"
 #include "pictures.h"
+#include "scans_ahead.h"
 
 namespace lidar_upsampling {
 
@@ -45,6 +46,7 @@ class Densification {
   std::string lidar_label_;
   std::set<std::string> camera_labels_;
   std::optional<Pictures> pictures_;
+  std::optional<ScansAhead> ahead_;  ///< with mode = offline
 };
 
 }  // namespace lidar_upsampling

@@ -14,7 +14,9 @@
 #include "lidar_upsampling/io/log_index.h"
 #include "lidar_upsampling/io/rawlog_stream.h"
 #include "lidar_upsampling/io/sensory_frame.h"
+#include "lidar_upsampling/scene/object_scene.h"
 #include "lidar_upsampling/stopwatch.h"
+#include "pose_input.h"
 
 namespace lidar_upsampling {
 namespace {
@@ -49,32 +51,39 @@ class Insertion {
   Insertion(const DensifyJob& job, const LogIndex& index, DensifyReport& report)
       : report_(report),
         carrier_(carrier_from_string(job.config.carrier)),
+        annotate_(job.config.annotate != 0),
         run_(job, index, report) {}
 
   Neighbours feed(const CObservation::Ptr& observation) {
     Neighbours result;
     if (const auto scan = run_.feed(observation)) {
       auto& side = scan->scan.stamp < observation->timestamp ? result.before : result.after;
-      side.push_back(out(*scan));
+      side = out(*scan);
     }
     return result;
   }
 
-  CObservation::Ptr flush() {
+  std::vector<CObservation::Ptr> flush() {
     const auto scan = run_.flush();
-    return scan ? out(*scan) : nullptr;
+    if (!scan) return {};
+    return out(*scan);
   }
 
  private:
-  CObservation::Ptr out(const VirtualScan& scan) {
+  std::vector<CObservation::Ptr> out(const VirtualScan& scan) {
     const Timed packing(report_, "packing");
     auto observation = observation_from_scan(scan.scan, carrier_, run_.last_real().get());
     if (report_.carrier.empty()) report_.carrier = observation->GetRuntimeClass()->className;
-    return observation;
+    std::vector<CObservation::Ptr> observations{observation};
+    if (annotate_)
+      observations.push_back(
+          observation_of_objects(scan, run_.last_real()->sensorLabel + "_OBJECTS"));
+    return observations;
   }
 
   DensifyReport& report_;
   Carrier carrier_;
+  bool annotate_;
   Densification run_;
 };
 
@@ -93,7 +102,7 @@ RawlogEntry densified_frame(const RawlogEntry& frame, Insertion& run) {
     observations.push_back(std::move(entry));
     for (const auto& observation : around.after) add(observation);
   }
-  if (const auto observation = run.flush()) add(observation);
+  for (const auto& observation : run.flush()) add(observation);
   return changed ? join_frame(observations) : frame;
 }
 
@@ -159,10 +168,11 @@ DensifyReport densify(const DensifyJob& job, const std::function<void(double)>& 
   Output output(job, report);
 
   constexpr double kIndexShare = 0.1;  // of the whole work
-  const LogIndex index = index_log(job.input, [&](double share) { tell(kIndexShare * share); });
+  LogIndex index = index_log(job.input, [&](double share) { tell(kIndexShare * share); });
   if (index.corruption && !job.accept_truncated)
     throw std::runtime_error(*index.corruption +
                              "; --accept-truncated densifies what comes before");
+  take_poses_from_file(job, index);
   Insertion run(job, index, report);
   if (index.corruption) report.warn(*index.corruption);
 
@@ -173,7 +183,7 @@ DensifyReport densify(const DensifyJob& job, const std::function<void(double)>& 
     densify_entry(*entry, run, output);
     tell(kIndexShare + (1 - kIndexShare) * reader.progress());
   }
-  if (const auto observation = run.flush()) output.write(*observation);
+  for (const auto& observation : run.flush()) output.write(*observation);
   output.commit();
   if (!share_external_storage(job.input, job.output))
     report.warn(

@@ -62,26 +62,7 @@ cv::Scalar color_of_depth(const cv::Mat& palette, double depth) {
 }
 
 cv::Mat on_image(const VirtualScan& scan, const CameraImage& image) {
-  cv::Mat picture;
-  if (image.bgr.empty())
-    cv::cvtColor(image.gray, picture, cv::COLOR_GRAY2BGR);
-  else
-    image.bgr.copyTo(picture);
-  picture *= 0.7;
-
-  const Pose T_camera_lidar = image.camera.T_vehicle_camera.inverse() * scan.scan.T_vehicle_lidar;
-  auto points = project_scan(image.camera.model, T_camera_lidar, scan.scan.points);
-  const auto hidden = mark_occluded(points);
-  std::vector<std::size_t> order;
-  for (std::size_t i = 0; i < points.size(); ++i)
-    if (hidden[i] == 0) order.push_back(i);
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return points[a].depth > points[b].depth; });
-  const cv::Mat palette = depth_palette();
-  for (const std::size_t i : order)
-    draw_dot(picture, points[i].u, points[i].v, points[i].depth < 15 ? 1.5 : 1.1,
-             color_of_depth(palette, points[i].depth));
-
+  cv::Mat picture = overlay(scan.scan, image);
   for (const ObjectMotion& object : scan.objects) {
     if (!moves(object) || object.camera_label != image.camera.label) continue;
     const cv::Scalar color = color_of_track(object.track_id);
@@ -142,6 +123,29 @@ std::string numbered(int number, const std::string& what) {
 }
 
 }  // namespace
+
+cv::Mat overlay(const LidarScan& scan, const CameraImage& image) {
+  cv::Mat picture;
+  if (image.bgr.empty())
+    cv::cvtColor(image.gray, picture, cv::COLOR_GRAY2BGR);
+  else
+    image.bgr.copyTo(picture);
+  picture *= 0.7;
+
+  const Pose T_camera_lidar = image.camera.T_vehicle_camera.inverse() * scan.T_vehicle_lidar;
+  auto points = project_scan(image.camera.model, T_camera_lidar, scan.points);
+  const auto hidden = mark_occluded(points);
+  std::vector<std::size_t> order;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    if (hidden[i] == 0) order.push_back(i);
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return points[a].depth > points[b].depth; });
+  const cv::Mat palette = depth_palette();
+  for (const std::size_t i : order)
+    draw_dot(picture, points[i].u, points[i].v, points[i].depth < 15 ? 1.5 : 1.1,
+             color_of_depth(palette, points[i].depth));
+  return picture;
+}
 
 Pictures::Pictures(std::string folder) : folder_(std::move(folder)) {
   std::error_code error;

@@ -10,6 +10,9 @@
 
 namespace lidar_upsampling {
 
+/// A scan of a picture's instant on the picture, coloured by depth: red near, blue far.
+[[nodiscard]] cv::Mat overlay(const LidarScan& scan, const CameraImage& image);
+
 /// @brief Pictures of virtual scans: on the camera image, coloured by depth, and from above beside
 /// the last real scan, with the trails of moving objects.
 class Pictures {

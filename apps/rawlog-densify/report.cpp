@@ -24,23 +24,52 @@ double quantile(std::vector<double> values, double share) {
 
 nlohmann::json vector_json(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 
+nlohmann::json pose_json(const Pose& T) {
+  const Eigen::Quaterniond q(T.linear());
+  const Eigen::Vector3d& t = T.translation();
+  return {t.x(), t.y(), t.z(), q.x(), q.y(), q.z(), q.w()};
+}
+
+nlohmann::json box_json(const ObjectBox& box) {
+  return {{"pose", pose_json(box.T_lidar_box)},
+          {"size_m", vector_json(box.size)},
+          {"velocity_m_s", vector_json(box.velocity)}};
+}
+
+// xx xy xz yy yz zz.
+nlohmann::json covariance_json(const Eigen::Matrix3d& c) {
+  return {c(0, 0), c(0, 1), c(0, 2), c(1, 1), c(1, 2), c(2, 2)};
+}
+
 nlohmann::json row_json(const DensifyReport::Row& row) {
   const ObjectMotion& object = row.object;
-  return {{"stamp", row.stamp.time_since_epoch().count()},
-          {"unix_time", mrpt::Clock::toDouble(row.stamp)},
-          {"camera", object.camera_label},
-          {"track", object.track_id},
-          {"class", object.class_name},
-          {"status", to_string(object.status)},
-          {"points", row.num_points},
-          {"tracked", object.num_tracked},
-          {"inliers", object.num_inliers},
-          {"rmse_px", object.rmse_px},
-          {"position_sigma_m", object.position_sigma_m},
-          {"position_m", vector_json(object.T_lidar_t_lidar_k * object.centroid_lidar_k)},
-          {"velocity_m_s", vector_json(object.velocity_lidar_k)},
-          {"yaw_rate_rad_s", object.yaw_rate},
-          {"box_px", {object.box.left, object.box.top, object.box.right, object.box.bottom}}};
+  nlohmann::json json{
+      {"stamp", row.stamp.time_since_epoch().count()},
+      {"unix_time", mrpt::Clock::toDouble(row.stamp)},
+      {"camera", object.camera_label},
+      {"track", object.track_id},
+      {"class", object.class_name},
+      {"status", to_string(object.status)},
+      {"points", row.num_points},
+      {"tracked", object.num_tracked},
+      {"inliers", object.num_inliers},
+      {"rmse_px", object.rmse_px},
+      {"position_sigma_m", position_sigma(object)},
+      {"position_covariance_m2", covariance_json(object.position_covariance)},
+      {"position_m", vector_json(object.T_lidar_t_lidar_k * object.centroid_lidar_k)},
+      {"velocity_m_s", vector_json(object.velocity_lidar_k)},
+      {"yaw_rate_rad_s", object.yaw_rate},
+      {"box_px", {object.box.left, object.box.top, object.box.right, object.box.bottom}},
+      {"moving", moves(object)},
+      {"T_rest_lidar", pose_json(row.T_rest_lidar)}};
+  if (row.box) json["box"] = box_json(*row.box);
+  return json;
+}
+
+std::optional<ObjectBox> box_of(int track, const std::vector<ObjectBox>& boxes) {
+  for (const ObjectBox& box : boxes)
+    if (box.track_id == track) return box;
+  return {};
 }
 
 std::string fixed(double value, int width, int digits) {
@@ -57,12 +86,14 @@ std::string fixed(double value, int width, int digits) {
 void DensifyReport::add(const VirtualScan& scan, bool keep_rows) {
   ++num_virtual_scans;
   if (scan.ego_extrapolated) ++num_extrapolated;
+  const std::vector<ObjectBox> boxes = keep_rows ? object_boxes(scan) : std::vector<ObjectBox>{};
   for (const ObjectMotion& object : scan.objects) {
     ++object_status[to_string(object.status)];
     tracks.insert(object.track_id);
     if (moves(object)) moving_tracks.insert(object.track_id);
     if (!keep_rows) continue;
-    rows.push_back({scan.scan.stamp, object.points.size(), object});
+    rows.push_back({scan.scan.stamp, object.points.size(), object, box_of(object.track_id, boxes),
+                    scan.T_rest_lidar_t});
     rows.back().object.points = {};
   }
   add(scan.timing);

@@ -4,10 +4,12 @@
 
 #include <map>
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
 
+#include "lidar_upsampling/scene/object_boxes.h"
 #include "lidar_upsampling/types.h"
 
 namespace lidar_upsampling {
@@ -29,7 +31,9 @@ struct DensifyReport {
   struct Row {
     Stamp stamp;
     std::size_t num_points;
-    ObjectMotion object;  ///< without its points
+    ObjectMotion object;                   ///< without its points
+    std::optional<ObjectBox> box;          ///< none: no points of it are left in the virtual scan
+    Pose T_rest_lidar = Pose::Identity();  ///< at `stamp`, as in VirtualScan
   };
   std::vector<Row> rows;
 

@@ -81,6 +81,13 @@ void check_clocks(const LogIndex& index, const StreamInfo& lidar, const StreamIn
 
 }  // namespace
 
+std::vector<std::string> labels_of_calibrated(const RigOverrides& rig) {
+  std::vector<std::string> labels;
+  for (const auto& [label, camera] : rig.cameras)
+    if (camera.fx && camera.fy && camera.cx && camera.cy) labels.push_back(label);
+  return labels;
+}
+
 StreamSelection select_streams(const LogIndex& index, const Config& config,
                                const std::vector<std::string>& calibrated_elsewhere) {
   StreamSelection selection;

@@ -7,6 +7,7 @@
 
 #include "lidar_upsampling/config.h"
 #include "lidar_upsampling/io/log_index.h"
+#include "lidar_upsampling/io/rig_overrides.h"
 
 namespace lidar_upsampling {
 
@@ -15,6 +16,9 @@ struct StreamSelection {
   const StreamInfo* lidar = nullptr;
   std::vector<const StreamInfo*> cameras;
 };
+
+/// Cameras whose intrinsics come from the settings.
+[[nodiscard]] std::vector<std::string> labels_of_calibrated(const RigOverrides& rig);
 
 /// @brief The LiDAR and the cameras that the settings name, or the ones there are.
 /// @param calibrated_elsewhere labels of cameras whose calibration comes from the settings.

@@ -2,6 +2,7 @@
 // Copyright (c) 2026, the lidar_upsampling authors
 #include "simulate.h"
 
+#include <mrpt/obs/CObservationVelodyneScan.h>
 #include <mrpt/obs/CSensoryFrame.h>
 
 #include <algorithm>
@@ -100,13 +101,18 @@ std::string beside(const std::string& log, const std::string& what) {
   return path.replace_extension().string() + what;
 }
 
+// Velodyne scans are the only ones that keep each point's time.
+Carrier carrier_of(const Scenario& scenario) {
+  return scenario.carrier == "velodyne" ? Carrier::same : carrier_from_string(scenario.carrier);
+}
+
 /// All that is written, and how.
 class Simulation {
  public:
   explicit Simulation(const SimulationJob& job)
       : scenario_(job.scenario),
         world_(build_world(job.scenario)),
-        carrier_(carrier_from_string(job.scenario.carrier)),
+        carrier_(carrier_of(job.scenario)),
         log_(job.output, job.overwrite),
         formatter_(log_, world_, job.scenario.format),
         objects_(beside(job.output, "_objects.csv"), job.overwrite),
@@ -160,7 +166,9 @@ class Simulation {
 
   void add_scan(Stamp stamp) {
     add_truth(stamp);
-    const SimulatedScan simulated = last_scan_ ? *last_scan_ : scan(stamp);
+    const bool is_truth = last_scan_ && !scenario_.lidar.sweep;
+    const SimulatedScan simulated =
+        is_truth ? *last_scan_ : scan_at(world_, scenario_.lidar, stamp, scenario_.seed);
     formatter_.add(observation_of(simulated.scan), EventKind::scan);
     ++summary_.num_scans;
     summary_.mean_points += static_cast<double>(simulated.scan.size());
@@ -183,7 +191,7 @@ class Simulation {
     write_objects(objects_.stream(), world_, stamp);
     write_ego(ego_.stream(), world_, stamp);
     if (!truth_) return;
-    last_scan_ = scan(stamp);
+    last_scan_ = snapshot(stamp);
     truth_->write(*pose_observation(world_, "GT", stamp));
     truth_->write(*observation_of(last_scan_->scan));
     ++summary_.num_truth_scans;
@@ -191,16 +199,19 @@ class Simulation {
 
   [[nodiscard]] mrpt::obs::CObservation::Ptr observation_of(const LidarScan& scan) const {
     if (scenario_.lidar.depth_camera) return depth_observation(scan, scenario_.lidar);
-    return observation_from_scan(scan, carrier_);
+    return observation_from_scan(scan, carrier_, &velodyne_);
   }
 
-  [[nodiscard]] SimulatedScan scan(Stamp stamp) const {
-    return scan_at(world_, scenario_.lidar, stamp, scenario_.seed);
+  [[nodiscard]] SimulatedScan snapshot(Stamp stamp) const {
+    LidarSpec lidar = scenario_.lidar;
+    lidar.sweep = false;
+    return scan_at(world_, lidar, stamp, scenario_.seed);
   }
 
   Scenario scenario_;
   World world_;
   Carrier carrier_;
+  mrpt::obs::CObservationVelodyneScan velodyne_;  // what Carrier::same is like
   RawlogWriter log_;
   LogFormatter formatter_;
   OutputFile objects_, ego_, boxes_;

@@ -108,6 +108,32 @@ TEST(Lidar, rings_count_from_the_lowest_and_columns_run_clockwise) {
   EXPECT_LT(scan.points[left - scan.column.begin()].y(), -1);  // three quarters round: on the right
 }
 
+TEST(Lidar, a_sweep_measures_each_column_at_its_own_instant) {
+  const World world = traffic();
+  LidarSpec lidar = test_lidar();
+  lidar.sweep = true;
+  lidar.columns = 600;
+  const Stamp stamp = stamp_of(7, 10, 0);
+  const SimulatedScan sweep = scan_at(world, lidar, stamp, 1);
+  ASSERT_EQ(sweep.scan.time_s.size(), sweep.scan.size());
+  double farthest_off = 0;
+  for (std::size_t i = 0; i < sweep.scan.size(); ++i) {
+    const double time = sweep_time(lidar, sweep.scan.column[i]);
+    ASSERT_FLOAT_EQ(sweep.scan.time_s[i], static_cast<float>(time));
+    ASSERT_LT(std::abs(time), 0.05);
+    const double t = time_of(stamp) + time;
+    const Eigen::Vector3d measured = sweep.scan.points[i].cast<double>();
+    const Eigen::Vector3d p = world.T_world_vehicle(t) * lidar.T_vehicle_lidar * measured;
+    ASSERT_NEAR(distance_to(world, sweep.object[i], t, p), 0, 5e-5) << i;
+    const Pose T_world_vehicle = world.T_world_vehicle(time_of(stamp));
+    const Eigen::Vector3d as_if_at_once = T_world_vehicle * lidar.T_vehicle_lidar * measured;
+    farthest_off = std::max(farthest_off, (p - as_if_at_once).norm());
+  }
+  EXPECT_GT(farthest_off, 0.4);  // half a turn at 9 m/s
+  EXPECT_LT(sweep_time(lidar, 0), -0.049);
+  EXPECT_NEAR(sweep_time(lidar, 300), 0, 1e-4);  // it faces forward
+}
+
 TEST(Lidar, plates_shine_and_tyres_do_not) {
   World world = empty_world();
   const int car = add_vehicle(world, "car", {9, 0, 0, 0, 0, {}});

@@ -62,8 +62,7 @@ std::optional<CameraEgo> estimate_camera_ego(const std::vector<Correspondence>& 
     starts.push_back(free->T_camera_source);
   }
   const auto refined = refine_likeliest_pose(correspondences, model, starts, options.pose,
-                                             vehicle_prior(T_camera_lidar, guess, options),
-                                             options.points_per_observation);
+                                             vehicle_prior(T_camera_lidar, guess, options));
   // With a prior the refinement asks for no number of inliers: we do.
   if (!refined || refined->num_inliers < options.min_correspondences / 2 ||
       refined->num_inliers <

@@ -14,9 +14,10 @@ namespace lidar_upsampling {
 /// How far a vehicle's motion may lie from the guess (one sigma, in the lidar frame, over a tenth
 /// of a second): wide where it drives and steers, narrow where it cannot go.
 struct CameraEgoOptions {
+  CameraEgoOptions() { pose.points_per_observation = 4; }
+
   AbsolutePoseOptions pose;
   bool trust_guess = false;  ///< whether other consensus than near the guess is out of the question
-  double points_per_observation = 4;  ///< neighbouring tracks err alike: so many count as one
   double forward_sigma_m = 0.3;
   double sideways_sigma_m = 0.05;
   double vertical_sigma_m = 0.02;

@@ -164,7 +164,7 @@ CameraRenderer::CameraRenderer(const CameraSpec& spec) : spec_(spec) {
 }
 
 RenderedImage CameraRenderer::render(const World& world, Stamp stamp, std::uint32_t seed) const {
-  const double t = time_of(stamp);
+  const double t = time_of(stamp) - spec_.time_offset_s;
   const Scene scene = scene_at(world, t);
   const Pose T_world_camera = world.T_world_vehicle(t) * spec_.camera.T_vehicle_camera;
   const Instant now{

@@ -25,11 +25,18 @@ constexpr int kBundle = 16;
 struct Instant {
   const World& world;
   const LidarSpec& lidar;
-  const Scene& scene;
+  Scene scene;
   Pose T_world_lidar;
   View view;
   std::uint32_t seed;
 };
+
+Instant instant_at(const World& world, const LidarSpec& lidar, double t, std::uint32_t seed) {
+  Scene scene = scene_at(world, t);
+  const Pose T_world_lidar = world.T_world_vehicle(t) * lidar.T_vehicle_lidar;
+  View view(scene, T_world_lidar.translation());
+  return {world, lidar, std::move(scene), T_world_lidar, std::move(view), seed};
+}
 
 RayBundle bundle_of(const Instant& now, int ring_from, int ring_to, int column_from,
                     int column_to) {
@@ -78,9 +85,9 @@ Return measured(const Instant& now, const RayHit& hit, const Eigen::Vector3d& di
   return {static_cast<float>(range), bright * (0.35F + 0.65F * facing), hit.object};
 }
 
-void scan_columns(const Instant& now, int column_from, std::vector<Return>& returns) {
+void scan_columns(const Instant& now, int column_from, int column_to,
+                  std::vector<Return>& returns) {
   const int num_rings = now.lidar.num_rings();
-  const int column_to = std::min(column_from + kBundle, now.lidar.columns) - 1;
   for (int ring_from = 0; ring_from < num_rings; ring_from += kBundle) {
     const int ring_to = std::min(ring_from + kBundle, num_rings) - 1;
     const auto candidates =
@@ -111,6 +118,7 @@ SimulatedScan collected(const LidarSpec& lidar, const std::vector<Return>& retur
       scan.intensity.push_back(r.intensity);
       scan.ring.push_back(static_cast<std::uint16_t>(ring));
       scan.column.push_back(static_cast<std::uint16_t>(column));
+      if (lidar.sweep) scan.time_s.push_back(static_cast<float>(sweep_time(lidar, column)));
       result.object.push_back(r.object);
     }
   }
@@ -131,20 +139,27 @@ Eigen::Vector3d beam_direction(const LidarSpec& lidar, int ring, int column) {
           std::sin(elevation)};
 }
 
+double sweep_time(const LidarSpec& lidar, int column) {
+  return lidar.sweep ? ((column + 0.5) / lidar.columns - 0.5) / lidar.rate_hz : 0;
+}
+
 SimulatedScan scan_at(const World& world, const LidarSpec& lidar, Stamp stamp, std::uint32_t seed) {
   const double t = time_of(stamp);
-  const Scene scene = scene_at(world, t);
-  const Pose T_world_lidar = world.T_world_vehicle(t) * lidar.T_vehicle_lidar;
   const auto ticks = static_cast<std::uint32_t>((stamp - start_stamp()).count());
-  const Instant now{world,
-                    lidar,
-                    scene,
-                    T_world_lidar,
-                    View(scene, T_world_lidar.translation()),
-                    hash(seed, ticks)};
+  const std::uint32_t own = hash(seed, ticks);
   std::vector<Return> returns(static_cast<std::size_t>(lidar.num_rings()) * lidar.columns);
-  const int num_bundles = (lidar.columns + kBundle - 1) / kBundle;
-  tbb::parallel_for(0, num_bundles, [&](int i) { scan_columns(now, i * kBundle, returns); });
+  if (lidar.sweep) {
+    tbb::parallel_for(0, lidar.columns, [&](int column) {
+      const Instant now = instant_at(world, lidar, t + sweep_time(lidar, column), own);
+      scan_columns(now, column, column, returns);
+    });
+  } else {
+    const Instant now = instant_at(world, lidar, t, own);
+    const int num_bundles = (lidar.columns + kBundle - 1) / kBundle;
+    tbb::parallel_for(0, num_bundles, [&](int i) {
+      scan_columns(now, i * kBundle, std::min((i + 1) * kBundle, lidar.columns) - 1, returns);
+    });
+  }
   SimulatedScan result = collected(lidar, returns);
   result.scan.stamp = stamp;
   return result;

@@ -8,7 +8,7 @@ namespace lidar_upsampling::sim {
 
 /// A scan whose points know what they lie on.
 struct SimulatedScan {
-  LidarScan scan;           ///< a snapshot: every point is measured at the stamp
+  LidarScan scan;           ///< as it was measured: of a sweep, from where the lidar was by then
   std::vector<int> object;  ///< of each point, its place in World::objects
 };
 
@@ -18,6 +18,10 @@ struct SimulatedScan {
 /// only: the same instant gives the same bytes, whichever log it is for, on any number of threads.
 [[nodiscard]] SimulatedScan scan_at(const World& world, const LidarSpec& lidar, Stamp stamp,
                                     std::uint32_t seed);
+
+/// @brief When a column is measured, in seconds from the stamp: 0 unless the lidar sweeps, when the
+/// stamp is the instant at which it faces forward.
+[[nodiscard]] double sweep_time(const LidarSpec& lidar, int column);
 
 /// Of a beam in the lidar frame, unit length. Columns run clockwise from the rear, as the scanner
 /// turns, or from left to right in a depth picture.

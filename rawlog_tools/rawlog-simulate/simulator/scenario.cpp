@@ -96,9 +96,11 @@ void read_log(SectionReader section, Scenario& scenario) {
   std::string format = "observations";
   section.choice("format", format, {"observations", "sensory_frames"});
   scenario.format = format == "observations" ? LogFormat::observations : LogFormat::sensory_frames;
-  section.choice("carrier", scenario.carrier, {"auto", "3drangescan", "pointcloud"});
-  if (scenario.lidar.depth_camera && scenario.carrier == "pointcloud") {
-    section.refuse("carrier", "is \"pointcloud\"; a depth camera's pictures are 3drangescan");
+  section.choice("carrier", scenario.carrier, {"auto", "3drangescan", "pointcloud", "velodyne"});
+  if (scenario.lidar.depth_camera &&
+      (scenario.carrier == "pointcloud" || scenario.carrier == "velodyne")) {
+    section.refuse("carrier",
+                   "is \"" + scenario.carrier + "\"; a depth camera's pictures are 3drangescan");
   }
   section.finish();
 }

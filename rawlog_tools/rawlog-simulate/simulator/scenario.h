@@ -52,6 +52,8 @@ struct LidarSpec {
   /// is ring 0.
   std::optional<CameraModel> depth_camera;
   double rate_hz = 10, phase_s = 0;
+  /// Turns while it measures, as real ones do, and tells each point's time; else all at the stamp.
+  bool sweep = false;
   double noise_m = 0.02;    ///< sigma of the range
   double noise_per_m2 = 0;  ///< times the squared range, added to that sigma
   double dropout = 0.01;    ///< share of the returns that are missing by chance
@@ -66,6 +68,7 @@ struct LidarSpec {
 struct CameraSpec {
   Camera camera;
   double rate_hz = 30, phase_s = 0;
+  double time_offset_s = 0;                     ///< a picture is taken this long before its stamp
   double noise = 1.5;                           ///< sigma of the gray value
   std::vector<std::pair<double, double>> gain;  ///< (t, factor on the light), linear between
 };

@@ -107,6 +107,7 @@ void read_lidar(SectionReader section, LidarSpec& lidar) {
     unsigned columns = lidar.columns;
     section.count("columns", columns, 8, 65535);
     lidar.columns = static_cast<int>(columns);
+    section.flag("sweep", lidar.sweep);
   }
   section.number("rate_hz", lidar.rate_hz, 0.01, 1000);
   section.number("phase_s", lidar.phase_s, 0, 100);
@@ -130,6 +131,7 @@ CameraSpec read_camera(SectionReader section, const std::string& label) {
   read_lens(section, spec.camera.model);
   section.number("rate_hz", spec.rate_hz, 0.01, 1000);
   section.number("phase_s", spec.phase_s, 0, 100);
+  section.number("time_offset_ms", spec.time_offset_s, -1000, 1000, 1e-3);
   section.number("noise", spec.noise, 0, 50);
   std::vector<double> gain;
   section.numbers("gain", gain, 0);

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the lidar_upsampling authors
+#include "pose_input.h"
+
+#include <mrpt/obs/CSensoryFrame.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "lidar_upsampling/io/images.h"
+#include "lidar_upsampling/io/rawlog_stream.h"
+#include "lidar_upsampling/stamp_text.h"
+
+namespace lidar_upsampling {
+namespace {
+
+using mrpt::obs::CObservation;
+
+// The first observation of the label, be it inside a sensory frame.
+CObservation::Ptr first_of(const std::string& label, const RawlogEntry& entry) {
+  if (auto frame = std::dynamic_pointer_cast<mrpt::obs::CSensoryFrame>(entry.object))
+    return frame->getObservationBySensorLabel(label);
+  auto observation = std::dynamic_pointer_cast<CObservation>(entry.object);
+  return observation && observation->sensorLabel == label ? observation : nullptr;
+}
+
+Pose T_vehicle_sensor(const LogIndex& index, const std::string& label, const RigOverrides& rig) {
+  const auto lidar = rig.T_vehicle_lidar.find(label);
+  if (lidar != rig.T_vehicle_lidar.end()) return lidar->second;
+  RawlogReader reader(index.path);
+  while (const auto entry = reader.next()) {
+    const CObservation::Ptr observation = first_of(label, *entry);
+    if (!observation) continue;
+    mrpt::poses::CPose3D pose;
+    observation->getSensorPose(pose);
+    Camera sensor;
+    sensor.label = label;
+    sensor.T_vehicle_camera = from_mrpt(pose);
+    apply(rig, sensor);
+    return sensor.T_vehicle_camera;
+  }
+  throw std::runtime_error(index.path + ": nothing is labelled '" + label +
+                           "' ([ego_motion] poses_of); the log holds " + labels_of(index));
+}
+
+// By custom the poses of a KITTI file are those of the first camera.
+std::string sensor_of(const PoseFileOptions& file, const LogIndex& index) {
+  if (!file.sensor.empty() || format_of(file) != PoseFileFormat::kitti) return file.sensor;
+  const auto cameras = index.of_kind(StreamKind::camera);
+  return cameras.empty() ? "" : cameras.front()->label;
+}
+
+std::string span_of(Stamp first, Stamp last) { return to_text(first) + " to " + to_text(last); }
+
+void check_times(const PoseFileOptions& file, const std::vector<PoseSample>& poses,
+                 const std::vector<Stamp>& scans) {
+  if (scans.empty()) return;
+  const auto [first, last] = std::minmax_element(
+      poses.begin(), poses.end(),
+      [](const PoseSample& a, const PoseSample& b) { return a.stamp < b.stamp; });
+  if (first->stamp > scans.back() || last->stamp < scans.front())
+    throw std::runtime_error(file.path + ": its poses are of another time, " +
+                             span_of(first->stamp, last->stamp) + " (UNIX s), than the scans, " +
+                             span_of(scans.front(), scans.back()));
+}
+
+}  // namespace
+
+void take_poses_from_file(const DensifyJob& job, LogIndex& index) {
+  const PoseFileOptions& file = job.config.pose_file;
+  if (file.path.empty()) return;
+  const EgoSource source = job.config.ego_motion.source;
+  if (source != EgoSource::automatic && source != EgoSource::poses)
+    throw std::invalid_argument(std::string("[ego_motion] source = ") + to_string(source) +
+                                ": a poses_file needs source = poses or auto");
+  const auto lidars = index.of_kind(StreamKind::lidar);
+  const StreamInfo* lidar = index.find(job.config.lidar_label, StreamKind::lidar);
+  if (lidar == nullptr && !lidars.empty()) lidar = lidars.front();
+  const std::vector<Stamp> scans = lidar == nullptr ? std::vector<Stamp>{} : lidar->stamps;
+  const std::string sensor = sensor_of(file, index);
+  index.poses = read_pose_file(
+      file, scans, sensor.empty() ? Pose::Identity() : T_vehicle_sensor(index, sensor, job.rig));
+  check_times(file, index.poses, scans);
+}
+
+}  // namespace lidar_upsampling

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the lidar_upsampling authors
+#pragma once
+
+#include <mrpt/obs/CObservation3DScene.h>
+#include <mrpt/opengl/CSetOfObjects.h>
+
+#include <string>
+#include <vector>
+
+#include "lidar_upsampling/scene/object_boxes.h"
+
+namespace lidar_upsampling {
+
+/// @brief Draws objects as wireframe boxes with class, track and speed; what moves has its track's
+/// colour and an arrow as long as its way in half a second.
+void draw_boxes(const std::vector<ObjectBox>& boxes, mrpt::opengl::CSetOfObjects& lidar_frame);
+
+/// What of a scan is drawn.
+enum class DrawnPoints { all, in_boxes };
+
+/// @brief Draws a scan's points, gray by intensity (by height without); those in a moving box in
+/// its colour.
+void draw_points(const LidarScan& scan, const std::vector<ObjectBox>& boxes, DrawnPoints which,
+                 mrpt::opengl::CSetOfObjects& lidar_frame);
+
+/// @brief A scene in the vehicle frame, with a grid on the vehicle's ground and the vehicle's axes.
+/// @param lidar_frame what lies in the LiDAR's frame.
+[[nodiscard]] mrpt::opengl::COpenGLScene::Ptr scene_around_vehicle(
+    const mrpt::opengl::CSetOfObjects::Ptr& lidar_frame, const Pose& T_vehicle_lidar);
+
+/// @brief The objects of a virtual scan and their points as a stock observation, which
+/// RawLogViewer shows; with the scan's stamp. MRPT 2.5.8 does not write this class's label.
+[[nodiscard]] mrpt::obs::CObservation3DScene::Ptr observation_of_objects(const VirtualScan& scan,
+                                                                         const std::string& label);
+
+}  // namespace lidar_upsampling

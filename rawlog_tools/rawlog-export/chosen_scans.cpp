@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the lidar_upsampling authors
+#include "chosen_scans.h"
+
+#include <mrpt/obs/CSensoryFrame.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "lidar_upsampling/io/carriers.h"
+#include "lidar_upsampling/io/log_index.h"
+#include "lidar_upsampling/io/rawlog_stream.h"
+
+namespace lidar_upsampling::exporting {
+namespace {
+
+constexpr const char* kEnding = "_VIRTUAL";
+
+bool ends_as_virtual(const std::string& label) {
+  const std::string ending = kEnding;
+  return label.size() > ending.size() &&
+         label.compare(label.size() - ending.size(), ending.size(), ending) == 0;
+}
+
+const StreamInfo& stream_of(const LogIndex& index, const std::string& label) {
+  if (!label.empty()) {
+    if (const auto* stream = index.find(label, StreamKind::lidar)) return *stream;
+    throw std::runtime_error(index.path + ": no 3D scans are labelled '" + label +
+                             "' (--label); the log holds " + labels_of(index));
+  }
+  const StreamInfo* found = nullptr;
+  for (const StreamInfo* stream : index.of_kind(StreamKind::lidar)) {
+    if (!ends_as_virtual(stream->label)) continue;
+    if (found != nullptr)
+      throw std::runtime_error(index.path + ": virtual scans of several labels, " + found->label +
+                               " and " + stream->label + ": choose with --label");
+    found = stream;
+  }
+  if (found == nullptr)
+    throw std::runtime_error(index.path + ": no virtual scans (label *" + kEnding +
+                             "); choose others with --label; the log holds " + labels_of(index));
+  return *found;
+}
+
+// The number of the chosen one among the stream's, none: all.
+std::optional<std::size_t> chosen_index(const StreamInfo& stream, const Choice& choice,
+                                        const std::string& path) {
+  if (choice.index && *choice.index >= stream.count)
+    throw std::runtime_error(path + ": --index " + std::to_string(*choice.index) + ", but '" +
+                             stream.label + "' has scans 0 to " + std::to_string(stream.count - 1));
+  if (choice.stamp && stream.stamps.size() == stream.count) {
+    const auto nearest =
+        std::min_element(stream.stamps.begin(), stream.stamps.end(), [&](Stamp a, Stamp b) {
+          return std::abs(seconds_between(*choice.stamp, a)) <
+                 std::abs(seconds_between(*choice.stamp, b));
+        });
+    return nearest - stream.stamps.begin();
+  }
+  return choice.index;
+}
+
+void for_each_observation(const RawlogEntry& entry,
+                          const std::function<void(const mrpt::obs::CObservation::Ptr&)>& use) {
+  if (auto frame = std::dynamic_pointer_cast<mrpt::obs::CSensoryFrame>(entry.object)) {
+    for (const auto& observation : *frame) use(observation);
+  } else if (auto observation = std::dynamic_pointer_cast<mrpt::obs::CObservation>(entry.object)) {
+    use(observation);
+  }
+}
+
+}  // namespace
+
+std::size_t for_each_chosen_scan(const std::string& path, const Choice& choice,
+                                 const std::function<void(double)>& progress,
+                                 const std::function<void(const LidarScan&)>& use) {
+  const LogIndex index = index_log(path);
+  if (index.corruption) throw std::runtime_error(*index.corruption);
+  const StreamInfo& stream = stream_of(index, choice.label);
+  const auto chosen = chosen_index(stream, choice, path);
+  std::size_t number = 0, num_used = 0;
+  RawlogReader reader(path);
+  while (const auto entry = reader.next()) {
+    for_each_observation(*entry, [&](const mrpt::obs::CObservation::Ptr& observation) {
+      if (observation->sensorLabel != stream.label || !is_lidar_scan(*observation)) return;
+      if (!chosen || number == *chosen) {
+        if (const auto scan = scan_from_observation(*observation)) use(*scan), ++num_used;
+      }
+      ++number;
+    });
+    progress(reader.progress());
+  }
+  return num_used;
+}
+
+}  // namespace lidar_upsampling::exporting
