@@ -33,4 +33,4 @@ esac
 "$(tool rawlog-densify)" --config "$config" --input "$thin" --output "$out/$name-dense.rawlog" \
   --report "$out/$name-report.json" --overwrite "${settings[@]}" > "$out/$name-densify.txt"
 "$(tool rawlog-evaluate)" --reference "$full" --input "$out/$name-dense.rawlog" --config "$config" \
-  "${judge[@]}" --json "$out/$name.json" "$@"
+  "${judge[@]}" --report "$out/$name-report.json" --json "$out/$name.json" "$@"

@@ -34,6 +34,37 @@ for file in config/scenarios/*.ini; do
   measure "scenario-$name" "Scenario $name" scenario "$name"
 done
 
+# What each clue is worth: the mean errors with it switched off.
+ablation_logs=("scenario queue" "scenario turning" "scenario braking" "scenario sparse_16")
+[ -z "$drive" ] || ablation_logs=("drive $drive 2" "drive $drive 3" "${ablation_logs[@]}")
+ablation_row() {  # <title> <settings>
+  echo "$1 ..." >&2
+  printf '| %s | `%s` |' "$1" "$2"
+  for log in "${ablation_logs[@]}"; do
+    SET=$2 bash share/measure.sh $log --no-paper > "$out/ablation.txt"
+    printf ' %s / %s |' "$(figure "$out/ablation.txt" "moving objects, position" ours 2)" \
+      "$(figure "$out/ablation.txt" "static objects, position" ours 2)"
+  done
+  echo
+}
+ablation() {
+  printf '| | settings |'
+  for log in "${ablation_logs[@]}"; do printf ' %s |' "${log/#"drive $drive"/drive 0052, K =}"; done
+  printf '\n|---|---|'
+  for log in "${ablation_logs[@]}"; do printf -- '---|'; done
+  echo
+  ablation_row "all clues" ""
+  ablation_row "without the motion between real scans" object_motion.scan_prior=false
+  ablation_row "without what earlier images told" object_motion.image_prior=false
+  ablation_row "without the ground" object_motion.ground_prior=false
+  ablation_row "without the test for parked ones" object_motion.static_test=false
+  ablation_row "with points that are covered by now" object_motion.drop_covered=false
+  ablation_row "the picture alone (the paper)" preset=paper
+  ablation_row "with the next scan (offline)" mode=offline
+}
+
+ablation > "$out/ablation.md"
+
 {
   cat share/results-intro.md
   echo "| | objects | hold | ego | const-v | paper | **ours** | ours / best other | static: ego | static: ours | Chamfer: hold | ego | ours | oracle |"
@@ -48,6 +79,8 @@ done
       "$(figure "$table" "static objects, position" ego 2) | $(figure "$table" "static objects, position" ours 2) |" \
       "$(figure "$table" Chamfer hold 3) | $(figure "$table" Chamfer ego 3) | $(figure "$table" Chamfer ours 3) | $(figure "$table" Chamfer oracle 3) |"
   done
+  printf '\n## Ablation: moving / static objects, mean position error, metres\n\n'
+  cat "$out/ablation.md"
   for run in "${runs[@]}"; do
     IFS='|' read -r name title command <<< "$run"
     printf '\n## %s\n\n`%s`\n\n```\n' "$title" "$command"

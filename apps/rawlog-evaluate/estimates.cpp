@@ -32,21 +32,6 @@ std::optional<Pose> recovered(const ObjectReference& object, const RowSources& s
 
 }  // namespace
 
-std::vector<Eigen::Vector3f> points_at(const LidarScan& scan, const std::vector<int>& indices) {
-  std::vector<Eigen::Vector3f> points;
-  points.reserve(indices.size());
-  for (const int i : indices) points.push_back(scan.points[i]);
-  return points;
-}
-
-std::vector<Eigen::Vector3f> without_ground(const LidarScan& scan) {
-  const Ground ground = estimate_ground(scan);
-  std::vector<Eigen::Vector3f> points;
-  for (std::size_t i = 0; i < scan.size(); ++i)
-    if (ground.is_ground.empty() || ground.is_ground[i] == 0) points.push_back(scan.points[i]);
-  return points;
-}
-
 MovedScan prepare_moved_scan(const LidarScan& key, const LidarScan& virtual_scan) {
   std::vector<int> matches = match_by_beam(key, virtual_scan);
   if (matches.empty()) matches = match_in_order(key, virtual_scan);

@@ -34,10 +34,4 @@ struct RowSources {
 /// cannot be registered there is left to the ego-motion.
 [[nodiscard]] Estimates estimates_of(const ObjectReference& object, const RowSources& sources);
 
-[[nodiscard]] std::vector<Eigen::Vector3f> points_at(const LidarScan& scan,
-                                                     const std::vector<int>& indices);
-
-/// The scan's points that do not lie on the ground.
-[[nodiscard]] std::vector<Eigen::Vector3f> without_ground(const LidarScan& scan);
-
 }  // namespace lidar_upsampling

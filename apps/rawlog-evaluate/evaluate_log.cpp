@@ -15,6 +15,7 @@
 #include "lidar_upsampling/registration/scan_registration.h"
 #include "lidar_upsampling/se3.h"
 #include "rawlog-densify/densification.h"
+#include "rawlog-densify/pose_input.h"
 #include "scan_feed.h"
 
 namespace lidar_upsampling {
@@ -208,7 +209,9 @@ void feed_entry(const RawlogEntry& entry, Walk& walk) {
 }  // namespace
 
 LogResult evaluate_log(const EvaluationJob& job, const std::function<void(double)>& progress) {
-  const LogIndex input = whole_index(job.input), reference = whole_index(job.reference);
+  LogIndex input = whole_index(job.input);
+  const LogIndex reference = whole_index(job.reference);
+  take_poses_from_file(job.paper, input);
   LogResult result;
   result.input = job.input;
   result.reference = job.reference;

@@ -6,7 +6,7 @@
 
 #include <stdexcept>
 
-#include "csv_table.h"
+#include "lidar_upsampling/csv_table.h"
 #include "lidar_upsampling/io/images.h"
 
 namespace lidar_upsampling {

@@ -21,13 +21,6 @@ Eigen::Vector3d centroid_of(const LidarScan& scan, const std::vector<int>& point
   return sum / std::max<double>(1., static_cast<double>(points.size()));
 }
 
-std::vector<Eigen::Vector3f> points_at(const LidarScan& scan, const std::vector<int>& indices) {
-  std::vector<Eigen::Vector3f> points;
-  points.reserve(indices.size());
-  for (const int i : indices) points.push_back(scan.points[i]);
-  return points;
-}
-
 // The motion since the scan that last showed the object, by registration; what was known before is
 // where it starts.
 void measure_motions(std::vector<Candidate>& candidates, const std::map<int, PastObject>& past,
@@ -37,17 +30,17 @@ void measure_motions(std::vector<Candidate>& candidates, const std::map<int, Pas
     const auto found = past.find(candidate.track_id);
     if (found == past.end()) return;
     const PastObject& before = found->second;
+    const Stamp instant = shifted(key.scan.stamp, candidate.time_s);
     const Pose T_k_before = key.T_rest_lidar_k.inverse() * before.T_rest_lidar;
     ObjectScans scans{before.points, points_at(key.scan, candidate.points), T_k_before,
-                      Pose::Identity(), seconds_between(before.stamp, key.scan.stamp)};
+                      Pose::Identity(), seconds_between(before.stamp, instant)};
     if (candidate.known) {
       const Eigen::Vector3d centroid = T_k_before.inverse() * candidate.centroid;
       scans.T_mov_guess = exp_se3(
           Twist(scans.dt * rate_over_ground(*candidate.known,
                                             before.T_rest_lidar.linear().transpose(), centroid)));
     }
-    if (const auto measured =
-            measure_between_scans(scans, key.scan.stamp, key.T_rest_lidar_k.linear()))
+    if (const auto measured = measure_between_scans(scans, instant, key.T_rest_lidar_k.linear()))
       candidate.known = measured;
   });
 }
@@ -82,6 +75,8 @@ std::vector<Candidate> find_candidates(CameraView& view, const Picture& anchor,
     candidate.track_id = ids[i];
     candidate.points = std::move(points[i]);
     candidate.centroid = centroid_of(key.scan, candidate.points);
+    if (config.sweep.scan_time != ScanTime::none)
+      candidate.time_s = mean_time(key.scan.time_s, candidate.points);
     if (const auto motion = known.find(ids[i]); motion != known.end())
       candidate.known = motion->second;
   }
@@ -97,7 +92,7 @@ void remember(std::map<int, PastObject>& past, const KeyScanView& key,
                  ? past.erase(object)
                  : std::next(object);
   for (const Candidate& candidate : candidates)
-    past[candidate.track_id] = {key.scan.stamp, key.T_rest_lidar_k,
+    past[candidate.track_id] = {shifted(key.scan.stamp, candidate.time_s), key.T_rest_lidar_k,
                                 points_at(key.scan, candidate.points)};
 }
 
@@ -121,7 +116,8 @@ std::vector<cv::Point2f> predict_pixels(const CameraView& view, const Pose& T_ca
                                         double dt) {
   std::vector<Pose> of_owner{T_camera_t_lidar_k};
   for (const Candidate& candidate : view.candidates)
-    of_owner.push_back(T_camera_t_lidar_k * exp_se3(Twist(candidate.rate * dt)));
+    of_owner.push_back(T_camera_t_lidar_k *
+                       exp_se3(Twist(candidate.rate * (dt - candidate.time_s))));
   constexpr double kFarOutside = -1e4;
   std::vector<cv::Point2f> pixels(view.points.size());
   for (std::size_t i = 0; i < pixels.size(); ++i) {
@@ -152,7 +148,7 @@ void start_view(CameraView& view, std::shared_ptr<const Picture> anchor, const K
                        [&] { cv::cornerMinEigenVal(anchor->image.gray, texture, 5); });
   view.candidates = find_candidates(view, *anchor, key, T_camera_lidar_a, visible_points(anchored),
                                     known, detector, config);
-  if (config.object_motion.prior.enabled) measure_motions(view.candidates, view.past, key);
+  if (config.object_motion.prior.from_scans) measure_motions(view.candidates, view.past, key);
   for (Candidate& candidate : view.candidates)
     if (candidate.known)
       candidate.rate = rate_over_ground(*candidate.known, key.T_rest_lidar_k.linear().transpose(),
@@ -164,12 +160,14 @@ void start_view(CameraView& view, std::shared_ptr<const Picture> anchor, const K
   if (std::abs(view.anchor_dt) * 1e3 <= config.timing.pair_tolerance_ms) view.anchor_dt = 0;
 
   for (std::size_t i = 0; i < view.candidates.size(); ++i) {
-    const Candidate& candidate = view.candidates[i];
+    Candidate& candidate = view.candidates[i];
+    candidate.anchor_rate = candidate.rate;
+    const double until_anchor = view.anchor_dt - candidate.time_s;
     auto points =
         followable_points(anchored, candidate.points, 2 * config.object_motion.min_points);
-    if (view.anchor_dt != 0 && !candidate.rate.isZero())
+    if (until_anchor != 0 && !candidate.rate.isZero())
       points = reprojected(points, scan, camera,
-                           T_camera_lidar_a * exp_se3(Twist(candidate.rate * view.anchor_dt)));
+                           T_camera_lidar_a * exp_se3(Twist(candidate.rate * until_anchor)));
     const PointTrackOptions& options = config.point_tracks;
     const auto chosen =
         choose_spread(points, texture, options.max_points_per_object, options.border_px);

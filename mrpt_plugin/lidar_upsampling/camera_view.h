@@ -10,6 +10,7 @@
 #include "lidar_upsampling/config.h"
 #include "lidar_upsampling/objects/detector.h"
 #include "lidar_upsampling/objects/known_motion.h"
+#include "lidar_upsampling/objects/motion_to_next.h"
 #include "lidar_upsampling/objects/point_tracks.h"
 #include "lidar_upsampling/objects/scene_segments.h"
 #include "lidar_upsampling/objects/tracks.h"
@@ -31,9 +32,13 @@ struct Candidate {
   int track_id = -1;
   std::vector<int> points;  ///< indices into the key scan, followed or not
   Eigen::Vector3d centroid = Eigen::Vector3d::Zero();  ///< lidar frame at k
+  double time_s = 0;                 ///< of its points' own measurement, from the key scan's stamp
   std::optional<KnownMotion> known;  ///< measured before the key scan's first image
+  std::optional<MotionToNext> to_next;  ///< where the next scan is known and shows it
+  bool to_next_is_guided = false;       ///< whether a picture led there
   Twist rate =
       Twist::Zero();  ///< motion over ground per second, in the lidar frame at k, as last estimated
+  Twist anchor_rate = Twist::Zero();  ///< the same, as its points were put on the anchor
 };
 
 /// An object as the last scan that showed it did, for its motion from scan to scan.
@@ -87,9 +92,11 @@ void follow_view(CameraView& view, const Picture& picture, const LidarScan& key_
 
 /// @brief Motion of every candidate at the picture's instant; sets their rates for the next
 /// picture.
+/// @param next the real scan to come, where it is known: null for a live system.
 [[nodiscard]] std::vector<ObjectMotion> estimate_motions(CameraView& view, const Picture& picture,
                                                          const LidarScan& key_scan,
                                                          const Pose& T_lidar_t_lidar_k,
+                                                         const NextScan* next,
                                                          const Config& config);
 
 }  // namespace lidar_upsampling

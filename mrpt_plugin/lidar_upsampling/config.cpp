@@ -207,6 +207,15 @@ class Documenter : public SettingVisitor {
   std::ostringstream text_;
 };
 
+// The published method: every object by its own pose, found in points enough for chance to be out
+// of the question.
+void leave_the_picture_alone(ObjectMotionOptions& options) {
+  options.static_test = options.drop_covered = false;
+  options.prior.from_scans = options.prior.from_images = options.prior.ground = false;
+  options.min_points = 20;
+  options.pose.min_inliers = 15;
+}
+
 }  // namespace
 
 void SettingVisitor::word(const char* key, std::string& value, const Choices& choices,
@@ -221,7 +230,7 @@ void Config::loadFromConfigFile(const CConfigFileBase& source, const std::string
   Loader loader(source, section);
   visit_settings(*this, loader);
   loader.reject_unknown_keys();
-  if (preset == "paper") object_motion.static_test = object_motion.prior.enabled = false;
+  if (preset == "paper") leave_the_picture_alone(object_motion);
 }
 
 void Config::saveToConfigFile(CConfigFileBase& target, const std::string& section) const {

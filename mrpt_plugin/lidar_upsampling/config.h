@@ -9,6 +9,7 @@
 
 #include "lidar_upsampling/ego/camera_ego.h"
 #include "lidar_upsampling/ego/ego_motion.h"
+#include "lidar_upsampling/ego/pose_file.h"
 #include "lidar_upsampling/ego/static_points.h"
 #include "lidar_upsampling/objects/detector.h"
 #include "lidar_upsampling/objects/object_motion.h"
@@ -19,6 +20,7 @@
 #include "lidar_upsampling/registration/scan_registration.h"
 #include "lidar_upsampling/scan/compose.h"
 #include "lidar_upsampling/scan/resample.h"
+#include "lidar_upsampling/scan/sweep.h"
 #include "lidar_upsampling/vision/klt.h"
 
 namespace lidar_upsampling {
@@ -50,6 +52,7 @@ struct Config : public mrpt::config::CLoadableOptions {
   ComposeOptions compose;
   TimingOptions timing;
   EgoMotionOptions ego_motion;
+  PoseFileOptions pose_file;
   CameraEgoOptions camera_ego;
   StaticPointOptions static_points;
   RegistrationOptions scan_registration;
@@ -61,6 +64,7 @@ struct Config : public mrpt::config::CLoadableOptions {
   KltOptions klt;
   ObjectMotionOptions object_motion;
   ResampleOptions resampling;
+  SweepOptions sweep;
 
   /// @throw std::invalid_argument naming section, key and value: an unknown key in a section of
   /// ours, a value of the wrong type or outside its range.

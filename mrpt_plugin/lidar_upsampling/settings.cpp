@@ -23,19 +23,27 @@ void visit_main(Config& c, SettingVisitor& v) {
          "best");
   v.integer("compression", c.compression, {0, 9},
             "gzip level of the output; above 1 gains nothing");
-  v.word("mode", c.mode, {"causal"}, "causal: only the past is used, as a live system must");
+  v.word("mode", c.mode, {"causal", "offline"},
+         "causal: only the past is used, as a live system must; offline: the next real scan, too");
   v.word("preset", c.preset, {"default", "paper"},
          "paper: exactly the published method, every object moved by its own pose");
   v.word("resample", c.resample, {"none", "beam"},
          "none: every virtual point is a real one, moved; beam: as the sensor would have measured "
          "it, on its own beams");
+  v.choice_of(
+      "scan_time", c.sweep.scan_time,
+      {{"none", ScanTime::none}, {"azimuth", ScanTime::azimuth}, {"points", ScanTime::points}},
+      "instants of a scan's points; none: all at the stamp, or corrected already; azimuth: "
+      "as the scanner turns; points: the log tells");
   v.choice_of("outside_view", c.compose.outside_view,
               {{"ego", OutsideView::ego}, {"drop", OutsideView::drop}},
               "points that no camera sees: moved by the ego-motion, or left out");
   v.choice_of("objects", c.compose.objects,
               {{"keep", MovingObjects::keep}, {"drop", MovingObjects::drop}},
               "moving objects in the virtual scans; drop: the static world only");
-  v.integer("annotate", c.annotate, {0, 0}, "0: nothing but scans is added to the log");
+  v.integer("annotate", c.annotate, {0, 1},
+            "1: the tracked objects beside each virtual scan, as boxes with arrows that "
+            "RawLogViewer shows");
 }
 
 void visit_timing(Config& c, SettingVisitor& v) {
@@ -55,6 +63,20 @@ void visit_timing(Config& c, SettingVisitor& v) {
            "the scan's points are put on an image at most this far from it");
 }
 
+void visit_sweep(Config& c, SettingVisitor& v) {
+  SweepOptions& s = c.sweep;
+  v.section("sweep", "How the scanner turns, with scan_time = azimuth.");
+  v.number("start_deg", s.start_deg, {-360, 360},
+           "where a scan begins; 0 is ahead, 90 to the left");
+  v.choice_of("direction", s.direction,
+              {{"clockwise", TurnDirection::clockwise},
+               {"counterclockwise", TurnDirection::counterclockwise}},
+              "seen from above");
+  v.number("reference", s.reference, kShare, "share of the turn at the stamp; 0: its begin");
+  v.number("period_ms", s.period_ms, {0, 10000},
+           "of a turn; 0: the shortest time between two scans of the log");
+}
+
 void visit_ego(Config& c, SettingVisitor& v) {
   EgoMotionOptions& e = c.ego_motion;
   v.section("ego_motion", "How the vehicle moves.");
@@ -72,6 +94,20 @@ void visit_ego(Config& c, SettingVisitor& v) {
            "past the last sample, at the last velocity; 0: never");
   v.number("gnss_min_step_m", e.gnss_min_step_m, kPositive,
            "heading comes from displacements longer than this");
+  PoseFileOptions& f = c.pose_file;
+  v.text("poses_file", f.path, "poses that take the place of the log's; empty: none");
+  v.choice_of("poses_format", f.format,
+              {{"auto", PoseFileFormat::automatic},
+               {"tum", PoseFileFormat::tum},
+               {"kitti", PoseFileFormat::kitti},
+               {"csv", PoseFileFormat::csv}},
+              "t x y z qx qy qz qw, the 12 numbers of a matrix, or a table with a header; auto: "
+              "what the first line looks like");
+  v.text("poses_times", f.times,
+         "kitti: file with a time per line; empty: there is a pose per real scan");
+  v.text("poses_of", f.sensor,
+         "label of the sensor whose poses these are; empty: the vehicle, of kitti the first "
+         "camera");
 }
 
 void visit_detector(Config& c, SettingVisitor& v) {
@@ -179,10 +215,14 @@ void visit_motion(Config& c, SettingVisitor& v) {
            "chi-square of 6 degrees of freedom");
   v.number("static_tolerance_px", o.static_tolerance_px, kNotNegative,
            "what ego-motion and calibration may be wrong on the picture");
-  v.number("points_per_observation", o.points_per_observation, {1, 1000},
+  v.number("points_per_observation", o.pose.points_per_observation, {1, 1000},
            "neighbouring points err alike: so many count as one");
   MotionPriorOptions& p = o.prior;
-  v.flag("prior", p.enabled, "the motion between the last real scans, and the ground, weigh in");
+  v.flag("drop_covered", o.drop_covered,
+         "points that a nearer moving object covers by now say nothing");
+  v.flag("scan_prior", p.from_scans, "the motion between real scans weighs in, by registration");
+  v.flag("image_prior", p.from_images, "the motion seen on images before the key scan weighs in");
+  v.flag("ground_prior", p.ground, "that vehicles stay on the ground and level weighs in");
   v.number("unknown_speed_sigma_m_s", p.unknown_speed_sigma, kPositive,
            "of an object seen for the first time");
   v.number("acceleration_sigma_m_s2", p.acceleration_sigma, kPositive,
@@ -212,6 +252,7 @@ void visit_resampling(Config& c, SettingVisitor& v) {
 void visit_settings(Config& config, SettingVisitor& visitor) {
   visit_main(config, visitor);
   visit_timing(config, visitor);
+  visit_sweep(config, visitor);
   visit_ego(config, visitor);
   visit_detector(config, visitor);
   visit_scene(config, visitor);

@@ -2,6 +2,9 @@
 // Copyright (c) 2026, the lidar_upsampling authors
 #include "lidar_upsampling/types.h"
 
+#include <Eigen/Eigenvalues>
+#include <cmath>
+
 namespace lidar_upsampling {
 
 const char* to_string(MotionStatus status) {
@@ -18,6 +21,19 @@ const char* to_string(MotionStatus status) {
       return "no_consensus";
   }
   return "unknown";
+}
+
+double position_sigma(const ObjectMotion& object) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(object.position_covariance,
+                                                            Eigen::EigenvaluesOnly);
+  return std::sqrt(std::max(0., axes.eigenvalues()[2]));
+}
+
+std::vector<Eigen::Vector3f> points_at(const LidarScan& scan, const std::vector<int>& indices) {
+  std::vector<Eigen::Vector3f> points;
+  points.reserve(indices.size());
+  for (const int i : indices) points.push_back(scan.points[i]);
+  return points;
 }
 
 }  // namespace lidar_upsampling

@@ -124,7 +124,8 @@ struct ObjectMotion {
   int num_tracked = 0;                                         ///< points that KLT followed
   int num_inliers = 0;                                         ///< of them, those that agree
   double rmse_px = 0;                                          ///< of the inliers
-  double position_sigma_m = 0;  ///< of the centroid, its least certain direction; 0: not known
+  /// Of the centroid at the image, m^2, in the axes of the lidar frame then; zero: not known.
+  Eigen::Matrix3d position_covariance = Eigen::Matrix3d::Zero();
 };
 
 /// How long a stage took for one image or scan.
@@ -149,6 +150,12 @@ struct VirtualScan {
 };
 
 [[nodiscard]] const char* to_string(MotionStatus status);
+
+/// One standard deviation of the centroid, in its least certain direction; 0: not known.
+[[nodiscard]] double position_sigma(const ObjectMotion& object);
+
+[[nodiscard]] std::vector<Eigen::Vector3f> points_at(const LidarScan& scan,
+                                                     const std::vector<int>& indices);
 
 /// Whether the object is moved by a motion of its own.
 [[nodiscard]] inline bool moves(const ObjectMotion& object) {

@@ -9,6 +9,7 @@
 #include "lidar_upsampling/camera_view.h"
 #include "lidar_upsampling/ego/camera_ego.h"
 #include "lidar_upsampling/registration/scan_registration.h"
+#include "lidar_upsampling/scan/sweep.h"
 #include "lidar_upsampling/se3.h"
 #include "lidar_upsampling/stopwatch.h"
 
@@ -75,14 +76,27 @@ std::optional<VirtualScan> LidarUpsampler::insert_scan(LidarScan scan) {
   auto waiting = flush();
   if (key_ && scan.stamp <= key_->scan.stamp) return waiting;  // out of order: of no use any more
   auto key = std::make_unique<KeyScan>();
+  const bool is_next = next_ && next_->stamp == scan.stamp;
+  const Pose T_scan_key = take_up(scan, is_next ? &next_->T_lidar_next_lidar_k : nullptr);
   if (key_) {
-    key->T_rest_lidar_k = key_->T_rest_lidar_k * scan_step(scan).inverse();
+    key->T_rest_lidar_k = key_->T_rest_lidar_k * T_scan_key.inverse();
     scan_period_s_ = seconds_between(key_->scan.stamp, scan.stamp);
   }
   key->scan = std::move(scan);
   key_ = std::move(key);
+  next_.reset();
   for (auto& [label, view] : views_) view->anchor.reset();
   return waiting;
+}
+
+void LidarUpsampler::expect_next(const LidarScan& next) {
+  if (!key_ || next.stamp <= key_->scan.stamp) return;
+  LidarScan straight = next;
+  const Pose T_lidar_next_lidar_k = take_up(straight, nullptr);
+  const Stopwatch watch(timing_, "next scan");
+  next_ = std::make_unique<NextScan>(
+      NextScan{next.stamp, make_surface(without_ground(straight, config_.segments.ground)),
+               T_lidar_next_lidar_k});
 }
 
 std::optional<VirtualScan> LidarUpsampler::insert_image(const CameraImage& image) {
@@ -131,6 +145,8 @@ std::optional<VirtualScan> LidarUpsampler::flush() {
     const Stopwatch watch_beams(timing_, "resampling");
     scan = resample_on_beams(key_->scan, std::move(scan), config_.resampling).scan;
   }
+  if (config_.sweep.scan_time != ScanTime::none)
+    scan.scan.time_s.clear();  // all are of one instant
   scan.T_rest_lidar_t = key_->T_rest_lidar_k * scan.T_lidar_t_lidar_k.inverse();
   scan.timing = std::exchange(timing_, {});
   return scan;
@@ -191,7 +207,8 @@ void LidarUpsampler::process(CameraView& view, const Picture& picture) {
   }
   {
     const Stopwatch watch(timing_, "object motion");
-    result.objects = estimate_motions(view, picture, key_->scan, result.ego.T_to_from, config_);
+    result.objects =
+        estimate_motions(view, picture, key_->scan, result.ego.T_to_from, next_.get(), config_);
   }
   group_.push_back(std::move(result));
 }
@@ -210,7 +227,8 @@ CameraEgoOptions LidarUpsampler::camera_ego_options(double dt) const {
   constexpr double kForward = 2.5, kSideways = 1, kTurn = 0.5;  // m/s^2, m/s^2, rad/s^2
   CameraEgoOptions options = config_.camera_ego;
   if (!rate_is_measured_) return options;
-  const double reach = 0.5 * (scan_period_s_ + dt) * dt;
+  const double to_end = next_ ? seconds_between(key_->scan.stamp, next_->stamp) - dt : 0;
+  const double reach = 0.5 * (next_ ? std::abs(to_end) : scan_period_s_ + dt) * dt;
   options.trust_guess = true;
   options.pose.min_inlier_ratio = std::min(0.1, options.pose.min_inlier_ratio);
   options.forward_sigma_m = 0.01 + kForward * reach;
@@ -229,6 +247,37 @@ EgoStep LidarUpsampler::camera_step(const CameraView& view, const Picture& pictu
   if (!step) return predicted;
   if (!rate_is_measured_) lidar_rate_ = log_se3(step->T_lidar_t_lidar_k) / dt;
   return {step->T_lidar_t_lidar_k, false};
+}
+
+double LidarUpsampler::turn_s() const {
+  if (config_.sweep.period_ms > 0) return 1e-3 * config_.sweep.period_ms;
+  double shortest_s = scan_period_s_;
+  for (std::size_t i = 1; i < expected_scans_.size(); ++i) {
+    const double between_s = seconds_between(expected_scans_[i - 1], expected_scans_[i]);
+    if (between_s > 0 && (shortest_s <= 0 || between_s < shortest_s)) shortest_s = between_s;
+  }
+  return shortest_s;
+}
+
+void LidarUpsampler::straighten(LidarScan& scan, const std::vector<float>& times) const {
+  deskew(scan, times, [&](double time) {
+    const auto step = ego_motion_.step(shifted(scan.stamp, time), scan.stamp);
+    return step ? in_lidar(step->T_to_from, scan.T_vehicle_lidar)
+                : exp_se3(Twist(-time * lidar_rate_));
+  });
+}
+
+Pose LidarUpsampler::take_up(LidarScan& scan, const Pose* known_step) {
+  const std::vector<float> times = point_times(scan, config_.sweep, turn_s());
+  const auto as_measured = times.empty() ? std::vector<Eigen::Vector3f>{} : scan.points;
+  straighten(scan, times);
+  if (known_step != nullptr) return *known_step;
+  if (!key_) return Pose::Identity();
+  const Pose T_scan_key = scan_step(scan);
+  if (times.empty() || !rate_is_measured_) return T_scan_key;
+  scan.points = as_measured;  // once more, by the rate that it showed itself
+  straighten(scan, times);
+  return T_scan_key;
 }
 
 Pose LidarUpsampler::scan_step(const LidarScan& next) {
@@ -251,7 +300,8 @@ void LidarUpsampler::learn(const std::vector<ObjectMotion>& objects, Stamp insta
     KnownMotion& known = known_motions_[object.track_id];
     known = {};
     known.stamp = instant;
-    const double sigma = object.position_sigma_m / seconds_between(key_->scan.stamp, instant);
+    const double dt = seconds_between(key_->scan.stamp, instant);
+    const double sigma = position_sigma(object) / dt;
     known.velocity_covariance = sigma * sigma * Eigen::Matrix2d::Identity();
     if (!moving) continue;
     known.velocity_at_rest = key_->T_rest_lidar_k.linear() * object.velocity_lidar_k;

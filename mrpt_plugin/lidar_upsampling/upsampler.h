@@ -18,6 +18,7 @@ namespace lidar_upsampling {
 struct CameraView;
 struct ImageResult;
 struct KnownMotion;
+struct NextScan;
 struct Picture;
 
 /// @brief Scans and images in, virtual scans out: the whole method, streaming. Observations come in
@@ -47,6 +48,10 @@ class LidarUpsampler {
   /// delivered its image of an instant. Without it, the cameras seen so far.
   void expect_cameras(const std::vector<std::string>& labels);
 
+  /// @brief The real scan after the key scan, where a log on disk tells (`mode = offline`): the
+  /// motions until then are measured, images place them in time. Before the key scan's images.
+  void expect_next(const LidarScan& next);
+
   /// @brief A real scan: it becomes the key scan.
   /// @return the virtual scan of an earlier instant that still waited for other cameras, if any.
   std::optional<VirtualScan> insert_scan(LidarScan scan);
@@ -69,6 +74,10 @@ class LidarUpsampler {
   [[nodiscard]] CameraEgoOptions camera_ego_options(double dt) const;
   [[nodiscard]] EgoStep camera_step(const CameraView& view, const Picture& picture,
                                     const EgoStep& predicted);
+  [[nodiscard]] double turn_s() const;
+  void straighten(LidarScan& scan, const std::vector<float>& times) const;
+  /// Refers a real scan's points to its stamp. @return its T_scan_key.
+  [[nodiscard]] Pose take_up(LidarScan& scan, const Pose* known_step);
   [[nodiscard]] Pose scan_step(const LidarScan& next);
   void learn(const std::vector<ObjectMotion>& objects, Stamp instant);
 
@@ -76,6 +85,7 @@ class LidarUpsampler {
   EgoMotion ego_motion_;
   std::unique_ptr<Detector> detector_;
   std::unique_ptr<KeyScan> key_;
+  std::unique_ptr<NextScan> next_;
   std::map<std::string, std::unique_ptr<CameraView>> views_;
   std::vector<ImageResult> group_;            ///< of the instant under way
   std::map<int, KnownMotion> known_motions_;  ///< by track id

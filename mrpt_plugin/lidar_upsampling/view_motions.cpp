@@ -27,34 +27,11 @@ Box2d box_of(const CameraModel& camera, const LidarScan& scan, const std::vector
   return box.right < box.left ? Box2d{} : box;
 }
 
-// Where moving objects are at the image.
-CoverMap cover_map(const CameraView& view, const std::vector<ObjectMotion>& motions,
-                   const LidarScan& scan, const MotionQuery& query) {
-  constexpr double kFinest_px = 5;
-  const Neighbourhood sampling = sampling_of(scan, query.camera);
-  CoverMap map(query.camera.width, query.camera.height,
-               std::max(kFinest_px, sampling.half_width_px),
-               std::max(kFinest_px, sampling.half_height_px));
-  for (std::size_t i = 0; i < motions.size(); ++i) {
-    if (!moves(motions[i])) continue;
-    const Pose T_camera_t_lidar_k = query.T_camera_lidar * motions[i].T_lidar_t_lidar_k;
-    for (const int index : view.candidates[i].points) {
-      const Eigen::Vector3d point = T_camera_t_lidar_k * scan.points[index].cast<double>();
-      if (const auto pixel = project(query.camera, point))
-        map.add(*pixel, point.z(), static_cast<int>(i));
-    }
-  }
-  return map;
-}
-
-// Pieces of one vehicle do not cover each other: what moves alike stays side by side.
-std::vector<std::uint8_t> companions_of(std::size_t i, const std::vector<ObjectMotion>& motions) {
-  constexpr double kAlike = 1.5;  // m/s
-  std::vector<std::uint8_t> alike(motions.size(), 0);
-  for (std::size_t j = 0; j < motions.size(); ++j)
-    alike[j] =
-        i == j || (motions[i].velocity_lidar_k - motions[j].velocity_lidar_k).norm() < kAlike;
-  return alike;
+// An object moves from its own instant on. An image taken before it, of an object behind, is taken
+// for one right after it.
+double since_measured(double dt, const Candidate& candidate) {
+  constexpr double kLeast_s = 0.005;
+  return candidate.time_s == 0 ? dt : std::max(kLeast_s, dt - candidate.time_s);
 }
 
 // The points were put on the anchor picture under `rate`; what was found is the motion since then,
@@ -65,57 +42,147 @@ Pose over_whole_interval(const Pose& T_mov, const Twist& rate, double anchor_dt,
   return exp_se3(Twist(log_se3(since_anchor) * (dt / (dt - anchor_dt))));
 }
 
+// All that is asked about one candidate, and the answer.
+struct Question {
+  MotionQuery query;
+  std::vector<Correspondence> pairs;
+  ObjectMotion motion;
+};
+
+Question question_about(const CameraView& view, std::size_t i, MotionQuery query,
+                        const LidarScan& key_scan, const ObjectMotionOptions& options) {
+  const Candidate& candidate = view.candidates[i];
+  query.centroid_lidar_k = candidate.centroid;
+  query.dt = since_measured(query.dt, candidate);
+  if (candidate.known) query.known_evidence = evidence_of_motion(*candidate.known);
+  query.prior =
+      expect_motion(candidate.known, shifted(key_scan.stamp, candidate.time_s),
+                    view.R_rest_lidar_k.transpose(), candidate.centroid, query.dt, options.prior);
+  return {query, correspondences_of(view.points, static_cast<int>(i)), {}};
+}
+
+// Registration on the next scan starts where the picture leads; what it finds must not contradict
+// the picture.
+void use_next_scan(Candidate& candidate, Question& question, const LidarScan& key_scan,
+                   const NextScan& next, const ObjectMotionOptions& options) {
+  const MotionQuery& query = question.query;
+  const double dt_next = seconds_between(key_scan.stamp, next.stamp);
+  const bool seen_moving = question.motion.status == MotionStatus::moving;
+  if (!candidate.to_next || (seen_moving && !candidate.to_next_is_guided)) {
+    std::vector<Pose> guesses;
+    if (!candidate.rate.isZero()) guesses.push_back(exp_se3(Twist(candidate.rate * dt_next)));
+    if (seen_moving)
+      guesses.push_back(exp_se3(Twist(log_se3(question.motion.T_mov) * (dt_next / query.dt))));
+    const bool picture_says_nothing = question.motion.num_inliers == 0;
+    candidate.to_next = measure_to_next(points_at(key_scan, candidate.points), key_scan.stamp, next,
+                                        guesses, picture_says_nothing);
+    candidate.to_next_is_guided = seen_moving;
+  }
+  if (!candidate.to_next) return;
+  MotionQuery knowing = query;
+  knowing.known_evidence = evidence_of_motion(*candidate.to_next);
+  knowing.prior = expect_on_the_way(*candidate.to_next, query.dt, options.prior);
+  ObjectMotion known = estimate_object_motion(question.pairs, knowing, options);
+  constexpr double kContradicted = 0.5;
+  if (known.num_inliers < kContradicted * question.motion.num_inliers) return;
+  question.motion = std::move(known);
+  question.query = knowing;
+}
+
+// Where moving objects are at the image.
+CoverMap cover_map(const CameraView& view, const std::vector<Question>& questions,
+                   const LidarScan& scan) {
+  constexpr double kFinest_px = 5;
+  const CameraModel& camera = view.camera.model;
+  const Neighbourhood sampling = sampling_of(scan, camera);
+  CoverMap map(camera.width, camera.height, std::max(kFinest_px, sampling.half_width_px),
+               std::max(kFinest_px, sampling.half_height_px));
+  for (std::size_t i = 0; i < questions.size(); ++i) {
+    const auto& [query, pairs, motion] = questions[i];
+    if (!moves(motion)) continue;
+    const Pose T_camera_t_lidar_k = query.T_camera_lidar * motion.T_lidar_t_lidar_k;
+    for (const int index : view.candidates[i].points) {
+      const Eigen::Vector3d point = T_camera_t_lidar_k * scan.points[index].cast<double>();
+      if (const auto pixel = project(camera, point))
+        map.add(*pixel, point.z(), static_cast<int>(i));
+    }
+  }
+  return map;
+}
+
+// Pieces of one vehicle do not cover each other: what moves alike stays side by side.
+std::vector<std::uint8_t> companions_of(std::size_t i, const std::vector<Question>& questions) {
+  constexpr double kAlike = 1.5;  // m/s
+  const Eigen::Vector3d& velocity = questions[i].motion.velocity_lidar_k;
+  std::vector<std::uint8_t> alike(questions.size(), 0);
+  for (std::size_t j = 0; j < questions.size(); ++j)
+    alike[j] = i == j || (velocity - questions[j].motion.velocity_lidar_k).norm() < kAlike;
+  return alike;
+}
+
+// Asks again those of whose points a nearer mover covers some by now.
+void drop_covered_points(const CameraView& view, const LidarScan& key_scan,
+                         const ObjectMotionOptions& options, std::vector<Question>& questions) {
+  if (std::none_of(questions.begin(), questions.end(),
+                   [](const Question& question) { return moves(question.motion); }))
+    return;
+  const CoverMap map = cover_map(view, questions, key_scan);
+  std::vector<std::vector<std::uint8_t>> companions(questions.size());
+  for (std::size_t i = 0; i < questions.size(); ++i) companions[i] = companions_of(i, questions);
+  tbb::parallel_for(std::size_t{0}, questions.size(), [&](std::size_t i) {
+    Question& question = questions[i];
+    const MotionQuery& query = question.query;
+    const auto uncovered = without_covered(
+        question.pairs, map, query.camera,
+        query.T_camera_lidar * query.T_lidar_t_lidar_k * query.prior.T_mov, companions[i]);
+    if (uncovered.size() < question.pairs.size())
+      question.motion = estimate_object_motion(uncovered, query, options);
+  });
+}
+
+// The answer with all that the virtual scan and the next picture want to know.
+ObjectMotion completed(Question question, Candidate& candidate, const CameraView& view,
+                       const LidarScan& key_scan) {
+  ObjectMotion motion = std::move(question.motion);
+  const MotionQuery& query = question.query;
+  if (motion.status == MotionStatus::moving) {
+    const Pose T_mov = over_whole_interval(motion.T_mov, candidate.anchor_rate,
+                                           view.anchor_dt - candidate.time_s, query.dt);
+    set_motion(motion, query.T_lidar_t_lidar_k * T_mov, query);
+    candidate.rate = log_se3(T_mov) / query.dt;
+  }
+  motion.track_id = candidate.track_id;
+  motion.class_name = candidate.detection.class_name;
+  motion.camera_label = view.camera.label;
+  motion.points = candidate.points;
+  motion.box = box_of(query.camera, key_scan, candidate.points,
+                      query.T_camera_lidar * motion.T_lidar_t_lidar_k);
+  return motion;
+}
+
 }  // namespace
 
 std::vector<ObjectMotion> estimate_motions(CameraView& view, const Picture& picture,
                                            const LidarScan& key_scan, const Pose& T_lidar_t_lidar_k,
-                                           const Config& config) {
+                                           const NextScan* next, const Config& config) {
+  const ObjectMotionOptions& options = config.object_motion;
   MotionQuery query;
   query.camera = view.camera.model;
   query.T_camera_lidar = T_camera_lidar_of(view.camera, key_scan.T_vehicle_lidar);
   query.T_lidar_t_lidar_k = T_lidar_t_lidar_k;
   query.dt = seconds_between(key_scan.stamp, picture.instant);
 
-  const std::size_t count = view.candidates.size();
-  std::vector<ObjectMotion> motions(count);
-  std::vector<MotionQuery> queries(count, query);
-  std::vector<std::vector<Correspondence>> pairs(count);
-  tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
-    const Candidate& candidate = view.candidates[i];
-    MotionQuery& own = queries[i];
-    own.centroid_lidar_k = candidate.centroid;
-    if (candidate.known) own.known_evidence = evidence_of_motion(*candidate.known);
-    own.prior = expect_motion(candidate.known, key_scan.stamp, view.R_rest_lidar_k.transpose(),
-                              candidate.centroid, query.dt, config.object_motion.prior);
-    pairs[i] = correspondences_of(view.points, static_cast<int>(i));
-    motions[i] = estimate_object_motion(pairs[i], own, config.object_motion);
+  std::vector<Question> questions(view.candidates.size());
+  tbb::parallel_for(std::size_t{0}, questions.size(), [&](std::size_t i) {
+    Question& question = questions[i];
+    question = question_about(view, i, query, key_scan, options);
+    question.motion = estimate_object_motion(question.pairs, question.query, options);
+    if (next != nullptr) use_next_scan(view.candidates[i], question, key_scan, *next, options);
   });
-
-  const CoverMap map = cover_map(view, motions, key_scan, query);
-  std::vector<std::vector<std::uint8_t>> companions(count);
-  for (std::size_t i = 0; i < count; ++i) companions[i] = companions_of(i, motions);
-  tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
-    Candidate& candidate = view.candidates[i];
-    ObjectMotion& motion = motions[i];
-    if (config.object_motion.prior.enabled) {
-      const auto uncovered = without_covered(
-          pairs[i], map, query.camera,
-          query.T_camera_lidar * T_lidar_t_lidar_k * queries[i].prior.T_mov, companions[i]);
-      if (uncovered.size() < pairs[i].size())
-        motion = estimate_object_motion(uncovered, queries[i], config.object_motion);
-    }
-    if (motion.status == MotionStatus::moving) {
-      const Pose T_mov =
-          over_whole_interval(motion.T_mov, candidate.rate, view.anchor_dt, query.dt);
-      set_motion(motion, T_lidar_t_lidar_k * T_mov, queries[i]);
-      candidate.rate = log_se3(T_mov) / query.dt;
-    }
-    motion.track_id = candidate.track_id;
-    motion.class_name = candidate.detection.class_name;
-    motion.camera_label = view.camera.label;
-    motion.points = candidate.points;
-    motion.box = box_of(query.camera, key_scan, candidate.points,
-                        query.T_camera_lidar * motion.T_lidar_t_lidar_k);
+  if (options.drop_covered) drop_covered_points(view, key_scan, options, questions);
+  std::vector<ObjectMotion> motions(questions.size());
+  tbb::parallel_for(std::size_t{0}, questions.size(), [&](std::size_t i) {
+    motions[i] = completed(std::move(questions[i]), view.candidates[i], view, key_scan);
   });
   return motions;
 }

@@ -76,8 +76,10 @@ class StreetRun {
     return T_world_lidar_1.inverse() * T_object * T_world_lidar_0;
   }
 
-  /// Feeds everything; `with_poses` gives the true poses to the ego-motion.
-  std::vector<VirtualScan> run(LidarUpsampler& upsampler, bool with_poses = true) {
+  /// Feeds everything; `with_poses` gives the true poses to the ego-motion, `with_next_scans` each
+  /// next scan beforehand.
+  std::vector<VirtualScan> run(LidarUpsampler& upsampler, bool with_poses = true,
+                               bool with_next_scans = false) {
     struct Event {
       Stamp stamp;
       int camera;  // -1: the lidar
@@ -104,10 +106,15 @@ class StreetRun {
     const auto take = [&](std::optional<VirtualScan> scan) {
       if (scan) virtual_scans.push_back(std::move(*scan));
     };
-    for (const Event& event : events)
-      take(event.camera < 0 ? upsampler.insert_scan(scan_at(event.stamp).scan)
-                            : upsampler.insert_image(
-                                  renderers[event.camera].render(world, event.stamp, 7).image));
+    for (const Event& event : events) {
+      if (event.camera >= 0) {
+        take(upsampler.insert_image(renderers[event.camera].render(world, event.stamp, 7).image));
+        continue;
+      }
+      take(upsampler.insert_scan(scan_at(event.stamp).scan));
+      const auto next = std::upper_bound(scans.begin(), scans.end(), event.stamp);
+      if (with_next_scans && next != scans.end()) upsampler.expect_next(scan_at(*next).scan);
+    }
     take(upsampler.flush());
     return virtual_scans;
   }

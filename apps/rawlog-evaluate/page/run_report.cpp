@@ -2,6 +2,7 @@
 // Copyright (c) 2026, the lidar_upsampling authors
 #include "run_report.h"
 
+#include <array>
 #include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -57,6 +58,17 @@ std::vector<TrackFigures> tracks_of(const Json& rows) {
   return figures;
 }
 
+ReportedObject object_of(const Json& row) {
+  ReportedObject object;
+  object.stamp = row.at("stamp").get<std::int64_t>();
+  object.status = row.at("status").get<std::string>();
+  object.sigma = row.at("position_sigma_m").get<double>();
+  for (int i = 0; i < 3; ++i) object.position[i] = row.at("position_m").at(i).get<double>();
+  const auto c = row.at("position_covariance_m2").get<std::array<double, 6>>();
+  object.covariance << c[0], c[1], c[2], c[1], c[3], c[4], c[2], c[4], c[5];
+  return object;
+}
+
 RunReport report_of(const Json& json) {
   RunReport report;
   report.ego_motion = json.at("ego_motion").get<std::string>();
@@ -73,6 +85,7 @@ RunReport report_of(const Json& json) {
                              stage.at("median_ms").get<double>(), stage.at("p95_ms").get<double>(),
                              stage.at("total_ms").get<double>()});
   report.tracks = tracks_of(json.at("objects"));
+  for (const Json& row : json.at("objects")) report.objects.push_back(object_of(row));
   return report;
 }
 

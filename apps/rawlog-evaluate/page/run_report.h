@@ -2,6 +2,8 @@
 // Copyright (c) 2026, the lidar_upsampling authors
 #pragma once
 
+#include <Eigen/Core>
+#include <cstdint>
 #include <map>
 #include <string>
 #include <vector>
@@ -29,6 +31,15 @@ struct TrackFigures {
   std::vector<Sample> speeds;  ///< where its motion is known; standing: 0
 };
 
+/// One object at one image.
+struct ReportedObject {
+  std::int64_t stamp = 0;  ///< MRPT ticks
+  std::string status;
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();    ///< of its centroid, lidar frame, m
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< m^2; zero: not known
+  double sigma = 0;                                      ///< m, worst direction
+};
+
 /// What rawlog-densify --report wrote.
 struct RunReport {
   std::string path;
@@ -37,6 +48,7 @@ struct RunReport {
   std::vector<StageFigures> stages;
   std::map<std::string, int> object_status, warnings;
   std::vector<TrackFigures> tracks;  ///< by id
+  std::vector<ReportedObject> objects;
 };
 
 /// @throw std::runtime_error the file cannot be read, or is no such report.

@@ -3,6 +3,7 @@
 #include "lidar_upsampling/objects/cluster_detector.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "lidar_upsampling/objects/hidden_foot.h"
@@ -90,7 +91,9 @@ std::vector<Detection> ClusterDetector::detect(const DetectorInput& input) {
         std::min(seen.box.width(), seen.box.height()) < options_.min_box_size) {
       continue;
     }
-    if (has_ground && extent.bottom > options_.max_bottom &&
+    // The ring below may just have missed it.
+    const double ring_m = std::tan(segments.vertical_step_deg * kDegree) * extent.centroid.norm();
+    if (has_ground && extent.bottom > options_.max_bottom + ring_m &&
         !foot_is_hidden(*input.key_scan, segments.ground, cluster)) {
       continue;
     }

@@ -11,14 +11,6 @@
 namespace lidar_upsampling {
 namespace {
 
-constexpr std::int64_t kTicksPerSecond = 10'000'000;
-constexpr int kTickDigits = 7;
-/// 1970-01-01 in MRPT's ticks, which count from 1601-01-01.
-constexpr std::int64_t kUnixEpochTicks = 116'444'736'000'000'000;
-/// An integer below is seconds, above ticks: year 2286 and 1601-01-12 are far from any log.
-constexpr std::int64_t kLargestSeconds = 9'999'999'999;
-constexpr std::int64_t kSmallestTicks = 10'000'000'000'000;
-
 std::string trimmed(const std::string& text) {
   const auto first = text.find_first_not_of(" \t\r\"");
   if (first == std::string::npos) return "";
@@ -30,10 +22,6 @@ std::vector<std::string> split(const std::string& line) {
   std::istringstream stream(line);
   for (std::string field; std::getline(stream, field, ',');) fields.push_back(trimmed(field));
   return fields;
-}
-
-bool all_digits(const std::string& text) {
-  return text.find_first_not_of("0123456789") == std::string::npos;
 }
 
 double parse_number(const std::string& text, const char* column) {
@@ -70,26 +58,6 @@ Detection parse_detection(const std::vector<std::string>& fields) {
 }
 
 }  // namespace
-
-Stamp parse_stamp(const std::string& text) {
-  const auto point = text.find('.');
-  const std::string whole = text.substr(0, point);
-  std::string fraction = point == std::string::npos ? "" : text.substr(point + 1);
-  if (whole.empty() || whole.size() > 18 || !all_digits(whole) || !all_digits(fraction)) {
-    throw std::invalid_argument("stamp '" + text + "' is neither MRPT ticks nor UNIX seconds");
-  }
-  std::int64_t ticks = std::stoll(whole);
-  if (point == std::string::npos && ticks >= kSmallestTicks) {
-    return Stamp(Stamp::duration(ticks));
-  }
-  if (ticks > kLargestSeconds) {
-    throw std::invalid_argument("stamp '" + text + "' is neither MRPT ticks nor UNIX seconds");
-  }
-  fraction.resize(kTickDigits + 1, '0');
-  const std::int64_t tenths_of_ticks = std::stoll(fraction);
-  ticks = ticks * kTicksPerSecond + (tenths_of_ticks + 5) / 10 + kUnixEpochTicks;
-  return Stamp(Stamp::duration(ticks));
-}
 
 CsvDetector::CsvDetector(const CsvDetectorOptions& options)
     : tolerance_s_(1e-3 * options.stamp_tolerance_ms) {

@@ -8,13 +8,9 @@
 #include <vector>
 
 #include "lidar_upsampling/objects/detector.h"
+#include "lidar_upsampling/stamp_text.h"
 
 namespace lidar_upsampling {
-
-/// @brief A stamp as text: MRPT ticks (an integer), or UNIX seconds with decimals, read without
-/// passing through a double.
-/// @throw std::invalid_argument neither of the two.
-[[nodiscard]] Stamp parse_stamp(const std::string& text);
 
 /// @brief Boxes from a file: `label,stamp,class,score,left,top,right,bottom[,track]`, any order of
 /// rows, an optional header; `label` is the image's sensor label.

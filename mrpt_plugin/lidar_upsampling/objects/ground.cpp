@@ -220,4 +220,12 @@ Ground estimate_ground(const LidarScan& scan, const GroundOptions& options) {
   return ground;
 }
 
+std::vector<Eigen::Vector3f> without_ground(const LidarScan& scan, const GroundOptions& options) {
+  const Ground ground = estimate_ground(scan, options);
+  std::vector<Eigen::Vector3f> points;
+  for (std::size_t i = 0; i < scan.size(); ++i)
+    if (ground.is_ground.empty() || ground.is_ground[i] == 0) points.push_back(scan.points[i]);
+  return points;
+}
+
 }  // namespace lidar_upsampling

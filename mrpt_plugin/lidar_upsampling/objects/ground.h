@@ -42,4 +42,8 @@ struct Ground {
 /// @throw std::invalid_argument options out of range.
 [[nodiscard]] Ground estimate_ground(const LidarScan& scan, const GroundOptions& options = {});
 
+/// The scan's points that do not lie on the ground.
+[[nodiscard]] std::vector<Eigen::Vector3f> without_ground(const LidarScan& scan,
+                                                          const GroundOptions& options = {});
+
 }  // namespace lidar_upsampling

@@ -56,7 +56,7 @@ std::array<Eigen::Vector3d, 3> steps_by_shape(const ObjectScans& scans) {
 
 ObjectRegistrationOptions quick_registration() {
   ObjectRegistrationOptions options;
-  options.min_points = 20;
+  options.min_points = 10;
   options.max_points = 120;
   options.max_iterations = 15;
   options.search_m = 0;
@@ -134,8 +134,12 @@ MotionPrior expect_motion(const std::optional<KnownMotion>& known, Stamp key_sta
                           const Eigen::Matrix3d& R_lidar_k_rest, const Eigen::Vector3d& centroid,
                           double dt, const MotionPriorOptions& options) {
   MotionPrior prior;
-  prior.height_sigma_m = options.height_sigma_m + options.height_rate_sigma * dt;
-  prior.tilt_sigma = kRadian * (options.tilt_sigma_deg + options.tilt_rate_sigma_deg * dt);
+  constexpr double kAnyTilt = 3;  // rad
+  prior.height_sigma_m = options.ground ? options.height_sigma_m + options.height_rate_sigma * dt
+                                        : options.unknown_speed_sigma * dt;
+  prior.tilt_sigma = options.ground
+                         ? kRadian * (options.tilt_sigma_deg + options.tilt_rate_sigma_deg * dt)
+                         : kAnyTilt;
   prior.yaw_sigma = options.yaw_rate_sigma * dt + kRadian * options.tilt_sigma_deg;
   if (!known) {
     prior.position_covariance =

@@ -29,8 +29,11 @@ struct KnownMotion {
                                      const Eigen::Matrix3d& R_lidar_k_rest,
                                      const Eigen::Vector3d& centroid);
 
+/// Which clues weigh in beside the picture, and how much is expected of a motion.
 struct MotionPriorOptions {
-  bool enabled = true;
+  bool from_scans = true;           ///< motion between real scans, by registration
+  bool from_images = true;          ///< motion seen on the images of earlier key scans
+  bool ground = true;               ///< vehicles stay on the ground and level
   double unknown_speed_sigma = 12;  ///< m/s, of an object seen for the first time
   double acceleration_sigma = 3;    ///< m/s^2
   double yaw_rate_sigma = 0.3;      ///< rad/s, of a known object; four times as much of a new one
@@ -38,6 +41,9 @@ struct MotionPriorOptions {
   double tilt_sigma_deg = 0.3;     ///< ...and level, plus this times the time since the key scan...
   double height_rate_sigma = 0.2;  ///< ...m/s
   double tilt_rate_sigma_deg = 3;  ///< ...deg/s
+
+  /// Without any clue there is no prior: the picture alone decides, as in the paper.
+  [[nodiscard]] bool any() const { return from_scans || from_images || ground; }
 };
 
 /// @brief What to expect of an object's motion over ground from the key scan on, as a Gaussian.

@@ -2,7 +2,6 @@
 // Copyright (c) 2026, the lidar_upsampling authors
 #include "lidar_upsampling/objects/object_motion.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
@@ -31,35 +30,42 @@ double distance_px(const Correspondences& correspondences, const CameraModel& ca
 double evidence_of_motion(const Correspondences& correspondences, const MotionQuery& query,
                           const AbsolutePose& moving, const Pose& T_parked,
                           const ObjectMotionOptions& options) {
-  const double before = options.prior.enabled ? query.known_evidence : 0;
+  const double before = options.prior.any() ? query.known_evidence : 0;
   if (distance_px(correspondences, query.camera, T_parked, moving.T_camera_source) <=
       options.static_tolerance_px)
     return before;
   const double sigma = std::max(0.5 * options.pose.sigma_px, moving.rmse_px);
   return before + (picture_cost(correspondences, query.camera, T_parked, sigma) -
                    picture_cost(correspondences, query.camera, moving.T_camera_source, sigma)) /
-                      options.points_per_observation;
+                      options.pose.points_per_observation;
 }
 
-// One standard deviation of the centroid, the worst direction.
-double centroid_sigma(const AbsolutePose& pose, const Eigen::Vector3d& centroid,
-                      double points_per_observation) {
+// Of the centroid, in the axes of the lidar frame at the image. What all tracks of an object share
+// (its points' depths, the anchor's errors) does not show in their scatter: as much again, as
+// rawlog-evaluate's table of uncertainties tells on simulated logs.
+Eigen::Matrix3d position_covariance(const AbsolutePose& pose, const MotionQuery& query) {
+  constexpr double kShared = 2;
   Eigen::Matrix<double, 3, 6> jacobian;
-  jacobian << -skew(pose.T_camera_source * centroid), Eigen::Matrix3d::Identity();
-  const Eigen::Matrix3d covariance = jacobian * pose.covariance * jacobian.transpose();
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(covariance, Eigen::EigenvaluesOnly);
-  return std::sqrt(points_per_observation * std::max(0., axes.eigenvalues()[2]));
+  jacobian << -skew(pose.T_camera_source * query.centroid_lidar_k), Eigen::Matrix3d::Identity();
+  jacobian = query.T_camera_lidar.linear().transpose() * jacobian;
+  return kShared * jacobian * pose.covariance * jacobian.transpose();
+}
+
+Eigen::Matrix3d position_covariance(const MotionPrior& prior, const MotionQuery& query) {
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+  covariance.topLeftCorner<2, 2>() = prior.position_covariance;
+  covariance(2, 2) = prior.height_sigma_m * prior.height_sigma_m;
+  const Eigen::Matrix3d R = query.T_lidar_t_lidar_k.linear();
+  return R * covariance * R.transpose();
 }
 
 // Without the picture: on by the motion measured before, if it is one, else parked.
 void fall_back(ObjectMotion& motion, const MotionQuery& query, MotionStatus status,
                const ObjectMotionOptions& options) {
   motion.status = status;
-  if (!options.prior.enabled || query.known_evidence < options.static_significance) return;
+  if (!options.prior.any() || query.known_evidence < options.static_significance) return;
   set_motion(motion, query.T_lidar_t_lidar_k * query.prior.T_mov, query);
-  motion.position_sigma_m = std::sqrt(Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(
-                                          query.prior.position_covariance, Eigen::EigenvaluesOnly)
-                                          .eigenvalues()[1]);
+  motion.position_covariance = position_covariance(query.prior, query);
   motion.status = MotionStatus::predicted;
 }
 
@@ -70,9 +76,8 @@ std::optional<AbsolutePose> solve_pose(const Correspondences& correspondences,
   const Pose T_expected = query.T_camera_lidar * query.T_lidar_t_lidar_k * query.prior.T_mov;
   auto pose = estimate_absolute_pose(correspondences, query.camera, options.pose, T_expected);
   if (!pose || !prior) return pose;
-  auto likeliest =
-      refine_likeliest_pose(correspondences, query.camera, {pose->T_camera_source, T_expected},
-                            options.pose, *prior, options.points_per_observation);
+  auto likeliest = refine_likeliest_pose(correspondences, query.camera,
+                                         {pose->T_camera_source, T_expected}, options.pose, *prior);
   return likeliest ? likeliest : pose;
 }
 
@@ -100,7 +105,7 @@ ObjectMotion estimate_object_motion(const Correspondences& correspondences,
 
   const Pose T_parked = query.T_camera_lidar * query.T_lidar_t_lidar_k;
   std::optional<PosePrior> prior;
-  if (options.prior.enabled) prior = pose_prior(query.prior, T_parked, query.centroid_lidar_k);
+  if (options.prior.any()) prior = pose_prior(query.prior, T_parked, query.centroid_lidar_k);
   const auto pose = solve_pose(correspondences, query, prior, options);
   ObjectMotion moved = motion;
   if (pose) set_motion(moved, query.T_camera_lidar.inverse() * pose->T_camera_source, query);
@@ -118,8 +123,7 @@ ObjectMotion estimate_object_motion(const Correspondences& correspondences,
   }
   result.num_inliers = pose->num_inliers;
   result.rmse_px = pose->rmse_px;
-  result.position_sigma_m =
-      centroid_sigma(*pose, query.centroid_lidar_k, options.points_per_observation);
+  result.position_covariance = position_covariance(*pose, query);
   return result;
 }
 

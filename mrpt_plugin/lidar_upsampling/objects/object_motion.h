@@ -13,18 +13,21 @@
 namespace lidar_upsampling {
 
 struct ObjectMotionOptions {
-  ObjectMotionOptions() { pose.min_inliers = 15; }  // fewer agree by chance now and then
+  ObjectMotionOptions() {
+    pose.min_inliers = 7;
+    pose.points_per_observation = 4;
+  }
 
   AbsolutePoseOptions pose;  ///< MLESAC and its refinement
   MotionPriorOptions prior;  ///< off: the paper
-  int min_points = 20;       ///< tracked points; fewer: the picture is not asked
+  int min_points = 10;       ///< tracked points; fewer: the picture is not asked
   double max_speed = 70;     ///< m/s over ground; faster: no consensus
+  bool drop_covered = true;  ///< points that a nearer moving object covers by now say nothing
   /// Whether an object that cannot be told from a parked one stays parked; off: the paper.
   bool static_test = true;
   double static_significance = 16.8;  ///< chi-square of 6 degrees of freedom, 1 % by default
   double static_tolerance_px =
       0.35;  ///< what ego-motion and calibration may be wrong on the picture
-  double points_per_observation = 4;  ///< neighbouring tracks err alike: so many count as one
 };
 
 /// What is known when an object's motion is asked for.

@@ -18,10 +18,11 @@ struct Correspondence {
 };
 
 struct AbsolutePoseOptions {
-  double sigma_px = 0.5;            ///< of an inlier's pixel, per axis
-  double outlier_range_px = 40;     ///< side of the square an outlier is equally likely to lie in
-  double max_inlier_sigmas = 3.03;  ///< of the reprojection error's length; 99 % of the inliers
-  double loss_scale_px = 1.5;       ///< of the Cauchy loss
+  double sigma_px = 0.5;              ///< of an inlier's pixel, per axis
+  double points_per_observation = 1;  ///< neighbouring points err alike: so many count as one
+  double outlier_range_px = 40;       ///< side of the square an outlier is equally likely to lie in
+  double max_inlier_sigmas = 3.03;    ///< of the reprojection error's length; 99 % of the inliers
+  double loss_scale_px = 1.5;         ///< of the Cauchy loss
   double first_gate_px = 6;  ///< what a pose to be refined must see this close to count at first
   int min_inliers = 8;
   double min_inlier_ratio = 0.3;

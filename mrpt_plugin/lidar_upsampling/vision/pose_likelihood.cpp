@@ -7,6 +7,23 @@
 #include <limits>
 
 namespace lidar_upsampling {
+namespace {
+
+// The noise of the inliers, per axis, with the expected one as a few more of them; who counts as an
+// inlier stays.
+AbsolutePoseOptions with_noise(AbsolutePoseOptions options, const AbsolutePose& pose) {
+  constexpr double kExpectedCounts = 4;
+  constexpr double kFinest_px = 0.05;
+  const double gate_px = options.max_inlier_sigmas * options.sigma_px;
+  const double sq_sigma = (kExpectedCounts * options.sigma_px * options.sigma_px +
+                           0.5 * pose.num_inliers * pose.rmse_px * pose.rmse_px) /
+                          (kExpectedCounts + pose.num_inliers);
+  options.sigma_px = std::max(kFinest_px, std::sqrt(sq_sigma));
+  options.max_inlier_sigmas = gate_px / options.sigma_px;
+  return options;
+}
+
+}  // namespace
 
 double picture_cost(const std::vector<Correspondence>& correspondences, const CameraModel& camera,
                     const Pose& T_camera_source, double sigma_px) {
@@ -27,8 +44,7 @@ double prior_cost(const PosePrior& prior, const Pose& T_camera_source) {
 
 std::optional<AbsolutePose> refine_likeliest_pose(
     const std::vector<Correspondence>& correspondences, const CameraModel& camera,
-    const std::vector<Pose>& starts, const AbsolutePoseOptions& options, const PosePrior& prior,
-    double points_per_observation) {
+    const std::vector<Pose>& starts, const AbsolutePoseOptions& options, const PosePrior& prior) {
   std::optional<AbsolutePose> best;
   double least = std::numeric_limits<double>::infinity();
   for (const Pose& start : starts) {
@@ -36,13 +52,16 @@ std::optional<AbsolutePose> refine_likeliest_pose(
     if (!pose) continue;
     const double cost =
         picture_cost(correspondences, camera, pose->T_camera_source, options.sigma_px) /
-            points_per_observation +
+            options.points_per_observation +
         prior_cost(prior, pose->T_camera_source);
     if (cost >= least) continue;
     least = cost;
     best = std::move(pose);
   }
-  return best;
+  if (!best) return best;
+  auto weighed = refine_absolute_pose(correspondences, camera, best->T_camera_source,
+                                      with_noise(options, *best), prior);
+  return weighed ? weighed : best;
 }
 
 }  // namespace lidar_upsampling

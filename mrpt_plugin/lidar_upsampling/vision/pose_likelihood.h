@@ -21,11 +21,9 @@ namespace lidar_upsampling {
 
 /// @brief refine_absolute_pose() from several starts; the answer of least cost, picture and prior
 /// together. A crowd of points that moves on its own does not win against a prior that knows
-/// better.
-/// @param points_per_observation neighbouring tracks err alike: so many count as one.
+/// better. The picture weighs in by the noise that the inliers show.
 [[nodiscard]] std::optional<AbsolutePose> refine_likeliest_pose(
     const std::vector<Correspondence>& correspondences, const CameraModel& camera,
-    const std::vector<Pose>& starts, const AbsolutePoseOptions& options, const PosePrior& prior,
-    double points_per_observation);
+    const std::vector<Pose>& starts, const AbsolutePoseOptions& options, const PosePrior& prior);
 
 }  // namespace lidar_upsampling

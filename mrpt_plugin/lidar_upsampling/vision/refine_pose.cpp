@@ -64,7 +64,7 @@ class ReprojectionCost {
       : observations_(std::move(observations)),
         T_initial_(T_initial),
         loss_(options.loss_scale_px),
-        sigma_px_(options.sigma_px),
+        sigma_px_(options.sigma_px * std::sqrt(options.points_per_observation)),
         prior_(prior) {}
 
   [[nodiscard]] int NumResiduals() const {
@@ -152,7 +152,7 @@ Matrix6d covariance(const std::vector<const Observation*>& inliers, const Pose& 
   const double sq_sigma = (kSigmaWeight * options.sigma_px * options.sigma_px +
                            sum_sq_influence / (mean_slope * mean_slope)) /
                           (kSigmaWeight + std::max(0., 2 * count - 6));
-  information /= sq_sigma;
+  information /= sq_sigma * options.points_per_observation;
   if (prior) information += prior->sqrt_information.transpose() * prior->sqrt_information;
   // What nothing determines gets a huge variance, not an infinite or negative one.
   const Eigen::SelfAdjointEigenSolver<Matrix6d> solver(information);

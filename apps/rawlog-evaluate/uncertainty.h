@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the lidar_upsampling authors
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "evaluation.h"
+#include "page/run_report.h"
+
+namespace lidar_upsampling {
+
+/// How true the reported covariances of one kind of answer are: the position error squared, in
+/// units of its covariance, over its three dimensions. Its mean is 1 where they are true
+/// (Bar-Shalom et al., Estimation with Applications to Tracking and Navigation, section 5.4: NEES),
+/// 95 % lie below 7.81 / 3.
+struct Calibration {
+  std::string status;  ///< of the object, as in the report
+  int count = 0;
+  double mean = 0, median = 0;
+  double share_95 = 0;      ///< of the errors that lie within their 95 % ellipsoid
+  double median_sigma = 0;  ///< m, reported, worst direction
+  double median_error = 0;  ///< m
+};
+
+/// @brief Joins the errors of a log's objects with their rows in the densification's report.
+/// @return by status; empty without truth, whose own errors would be taken for ours.
+[[nodiscard]] std::vector<Calibration> calibration_of(const LogResult& log,
+                                                      const RunReport& report);
+
+[[nodiscard]] std::string to_text(const std::vector<Calibration>& calibrations);
+
+}  // namespace lidar_upsampling

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the lidar_upsampling authors
+#include "lidar_upsampling/scan/sweep.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+namespace lidar_upsampling {
+namespace {
+
+void check(const SweepOptions& options, double period_s) {
+  if (!(options.reference >= 0 && options.reference <= 1))
+    throw std::invalid_argument("[sweep] reference = " + std::to_string(options.reference) +
+                                ": a share of the turn lies between 0 and 1");
+  if (!(period_s >= 0))
+    throw std::invalid_argument("a turn of the scanner takes " + std::to_string(period_s) +
+                                " s: check [sweep] period_ms and the scans' stamps");
+}
+
+std::vector<float> times_by_azimuth(const LidarScan& scan, const SweepOptions& options,
+                                    double period_s) {
+  const double start = options.start_deg * M_PI / 180;
+  const double sign = options.direction == TurnDirection::clockwise ? -1 : 1;
+  std::vector<float> times(scan.size());
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    const double azimuth = std::atan2(scan.points[i].y(), scan.points[i].x());
+    double turned = sign * (azimuth - start) / (2 * M_PI);
+    turned -= std::floor(turned);
+    times[i] = static_cast<float>((turned - options.reference) * period_s);
+  }
+  return times;
+}
+
+}  // namespace
+
+std::vector<float> point_times(const LidarScan& scan, const SweepOptions& options,
+                               double period_s) {
+  if (options.scan_time == ScanTime::none) return {};
+  check(options, period_s);
+  if (options.scan_time == ScanTime::azimuth)
+    return period_s > 0 ? times_by_azimuth(scan, options, period_s) : std::vector<float>{};
+  if (scan.time_s.size() != scan.size())
+    throw std::runtime_error("scan_time = points, but the scans of '" + scan.label +
+                             "' have no times of their points: of a spinning scanner choose "
+                             "scan_time = azimuth");
+  return scan.time_s;
+}
+
+void deskew(LidarScan& scan, const std::vector<float>& times, const LidarPath& path) {
+  if (times.empty()) return;
+  if (times.size() != scan.size())
+    throw std::invalid_argument("a scan of " + std::to_string(scan.size()) + " points with " +
+                                std::to_string(times.size()) + " times of points");
+  constexpr double kStep_s = 0.002;
+  const auto [first, last] = std::minmax_element(times.begin(), times.end());
+  const double from = *first;
+  const auto num_steps = 1 + static_cast<std::size_t>((*last - from) / kStep_s);
+  std::vector<Eigen::Matrix<float, 3, 4>> T_k_lidar;
+  for (std::size_t i = 0; i <= num_steps; ++i)
+    T_k_lidar.emplace_back(
+        path(from + static_cast<double>(i) * kStep_s).matrix().topRows<3>().cast<float>());
+  for (std::size_t i = 0; i < scan.size(); ++i) {
+    const double place = (times[i] - from) / kStep_s;
+    const std::size_t step = std::min(static_cast<std::size_t>(place), num_steps - 1);
+    const auto share = static_cast<float>(place - static_cast<double>(step));
+    // Within a step the pose is all but affine in time.
+    const Eigen::Vector4f point = scan.points[i].homogeneous();
+    scan.points[i] =
+        (1 - share) * (T_k_lidar[step] * point) + share * (T_k_lidar[step + 1] * point);
+  }
+  scan.time_s = times;
+}
+
+void deskew(LidarScan& scan, const std::vector<float>& times, const Twist& lidar_rate) {
+  deskew(scan, times, [&](double time) { return exp_se3(Twist(-time * lidar_rate)); });
+}
+
+double mean_time(const std::vector<float>& times, const std::vector<int>& points) {
+  if (times.empty() || points.empty()) return 0;
+  double sum = 0;
+  for (const int i : points) sum += times[static_cast<std::size_t>(i)];
+  return sum / static_cast<double>(points.size());
+}
+
+}  // namespace lidar_upsampling

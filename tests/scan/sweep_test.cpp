@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the lidar_upsampling authors
+#include "lidar_upsampling/scan/sweep.h"
+
+#include <gtest/gtest.h>
+
+#include <stdexcept>
+
+namespace lidar_upsampling {
+namespace {
+
+constexpr double kPeriod_s = 0.1;
+
+LidarScan scan_of(const std::vector<double>& azimuths_deg) {
+  LidarScan scan;
+  scan.label = "LIDAR";
+  for (const double azimuth : azimuths_deg) {
+    const double a = azimuth * M_PI / 180;
+    scan.points.emplace_back(static_cast<float>(20 * std::cos(a)),
+                             static_cast<float>(20 * std::sin(a)), -1.F);
+  }
+  return scan;
+}
+
+SweepOptions by_azimuth() {
+  SweepOptions options;
+  options.scan_time = ScanTime::azimuth;
+  return options;
+}
+
+/// A lidar that drives and turns, at rest in the world's origin at its stamp.
+Twist driving() { return (Twist() << 0.01, -0.02, 0.4, 12, 0.3, 0.1).finished(); }
+
+Pose T_k_lidar(const Twist& rate_over_ground, double time) {
+  return exp_se3(Twist(time * rate_over_ground));
+}
+
+TEST(Sweep, by_default_the_scanner_turns_clockwise_from_the_rear_and_the_stamp_is_in_front) {
+  const auto times = point_times(scan_of({179, 90, 0, -90, -179}), by_azimuth(), kPeriod_s);
+  ASSERT_EQ(times.size(), 5U);
+  EXPECT_NEAR(times[0], -0.05 + 0.1 / 360, 1e-6);
+  EXPECT_NEAR(times[1], -0.025, 1e-6);
+  EXPECT_NEAR(times[2], 0, 1e-6);
+  EXPECT_NEAR(times[3], 0.025, 1e-6);
+  EXPECT_NEAR(times[4], 0.05 - 0.1 / 360, 1e-6);
+}
+
+TEST(Sweep, start_direction_and_reference_are_settings) {
+  SweepOptions options = by_azimuth();
+  options.start_deg = 90;
+  options.direction = TurnDirection::counterclockwise;
+  options.reference = 1;
+  const auto times = point_times(scan_of({91, 180, -90, 89}), options, kPeriod_s);
+  EXPECT_NEAR(times[0], -0.1 + 0.1 / 360, 1e-6);
+  EXPECT_NEAR(times[1], -0.075, 1e-6);
+  EXPECT_NEAR(times[2], -0.05, 1e-6);
+  EXPECT_NEAR(times[3], -0.1 / 360, 1e-6);
+}
+
+TEST(Sweep, nothing_is_known_without_a_period_nor_asked_with_none) {
+  EXPECT_TRUE(point_times(scan_of({0, 90}), by_azimuth(), 0).empty());
+  EXPECT_TRUE(point_times(scan_of({0, 90}), SweepOptions(), kPeriod_s).empty());
+}
+
+TEST(Sweep, the_points_own_times_are_taken_and_missing_ones_are_an_error) {
+  LidarScan scan = scan_of({0, 90});
+  SweepOptions options;
+  options.scan_time = ScanTime::points;
+  EXPECT_THROW((void)point_times(scan, options, kPeriod_s), std::runtime_error);
+  scan.time_s = {0.01F, 0.02F};
+  EXPECT_EQ(point_times(scan, options, 0), scan.time_s);
+  options.reference = 2;
+  EXPECT_THROW((void)point_times(scan, options, kPeriod_s), std::invalid_argument);
+}
+
+TEST(Sweep, points_measured_under_way_are_put_where_the_world_has_them) {
+  std::vector<double> azimuths;
+  for (int i = 0; i < 720; ++i) azimuths.push_back(179.75 - 0.5 * i);
+  const LidarScan truth = scan_of(azimuths);
+  const auto times = point_times(truth, by_azimuth(), kPeriod_s);
+  LidarScan sheared = truth;
+  for (std::size_t i = 0; i < truth.size(); ++i)
+    sheared.points[i] =
+        (T_k_lidar(driving(), times[i]).inverse() * truth.points[i].cast<double>()).cast<float>();
+  ASSERT_GT((sheared.points.front() - truth.points.front()).norm(), 0.5);
+
+  LidarScan straight = sheared;
+  deskew(straight, times, [](double time) { return T_k_lidar(driving(), time); });
+  for (std::size_t i = 0; i < truth.size(); ++i)
+    ASSERT_LT((straight.points[i] - truth.points[i]).norm(), 5e-5) << i;
+  EXPECT_EQ(straight.time_s, times);
+
+  // As a rate of the lidar, which sees the world go the other way.
+  LidarScan again = sheared;
+  deskew(again, times, Twist(-driving()));
+  for (std::size_t i = 0; i < truth.size(); ++i)
+    ASSERT_LT((again.points[i] - truth.points[i]).norm(), 5e-5) << i;
+}
+
+TEST(Sweep, a_scan_without_times_stays_as_it_is) {
+  LidarScan scan = scan_of({0, 90});
+  const auto before = scan.points;
+  deskew(scan, {}, driving());
+  EXPECT_EQ(scan.points, before);
+  EXPECT_TRUE(scan.time_s.empty());
+  EXPECT_THROW(deskew(scan, {0.F}, driving()), std::invalid_argument);
+}
+
+TEST(Sweep, all_points_at_one_instant_move_alike) {
+  LidarScan scan = scan_of({0, 90});
+  const auto before = scan.points;
+  deskew(scan, {0.03F, 0.03F}, driving());
+  for (std::size_t i = 0; i < 2; ++i)
+    EXPECT_LT((scan.points[i].cast<double>() -
+               exp_se3(Twist(-0.03 * driving())) * before[i].cast<double>())
+                  .norm(),
+              1e-5);
+}
+
+TEST(Sweep, the_mean_time_is_that_of_the_chosen_points) {
+  EXPECT_NEAR(mean_time({0.01F, 0.02F, 0.06F}, {0, 2}), 0.035, 1e-7);
+  EXPECT_EQ(mean_time({}, {0, 2}), 0);
+  EXPECT_EQ(mean_time({0.01F}, {}), 0);
+}
+
+}  // namespace
+}  // namespace lidar_upsampling

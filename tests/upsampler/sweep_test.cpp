@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the lidar_upsampling authors
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "street_run.h"
+
+namespace lidar_upsampling {
+namespace {
+
+/// A scanner that turns while we drive: an oncoming car on the left is met well before the stamp.
+constexpr const char* kSweep = R"(
+[ego]
+speed_mps = 12
+[lidar]
+sweep = true
+[scenario]
+duration_s = 0.4
+[vehicle.far_lane]
+x_m = 24
+y_m = 5.1
+yaw_deg = 180
+speed_mps = 9
+)";
+
+struct SweepErrors {
+  double standing = 0, moving = 0;  ///< m, mean of all virtual scans
+};
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+/// Distances of virtual points from where the truth takes them, each from its own instant on:
+/// of what stands the median (a parked car that is dragged along is another matter), of moving
+/// objects in view the mean.
+SweepErrors sweep_errors(ScanTime scan_time, bool with_poses = true) {
+  StreetRun street(kSweep);
+  Config config;
+  config.sweep.scan_time = scan_time;
+  LidarUpsampler upsampler{config};
+  const auto scans = street.run(upsampler, with_poses);
+  SweepErrors errors;
+  double num_moving = 0;
+  for (const VirtualScan& scan : scans) {
+    const sim::SimulatedScan key = street.scan_at(scan.key_stamp);
+    std::vector<double> standing;
+    for (std::size_t i = 0; i < scan.scan.size(); ++i) {
+      const int source = scan.source_index[i], object = key.object[source];
+      const bool moves = street.world.objects[object].moves();
+      if (moves && key.scan.points[source].x() < 0) continue;  // behind: no camera sees it
+      const Eigen::Vector3d truth =
+          street.true_motion(moves ? object : -1, shifted(scan.key_stamp, key.scan.time_s[source]),
+                             scan.scan.stamp) *
+          key.scan.points[source].cast<double>();
+      const double error = (scan.scan.points[i].cast<double>() - truth).norm();
+      if (moves) {
+        errors.moving += error;
+        ++num_moving;
+      } else {
+        standing.push_back(error);
+      }
+    }
+    errors.standing += median(standing) / static_cast<double>(scans.size());
+  }
+  errors.moving /= num_moving;
+  return errors;
+}
+
+TEST(SweepingLidar, points_are_taken_from_their_own_instants) {
+  const SweepErrors none = sweep_errors(ScanTime::none);
+  const SweepErrors azimuth = sweep_errors(ScanTime::azimuth);
+  const SweepErrors points = sweep_errors(ScanTime::points);
+  EXPECT_GT(none.standing, 0.1);
+  EXPECT_LT(azimuth.standing, 0.003);
+  EXPECT_LT(points.standing, 0.003);
+  EXPECT_LT(azimuth.moving, 0.7 * none.moving);
+  EXPECT_LT(points.moving, 0.7 * none.moving);
+}
+
+TEST(SweepingLidar, without_poses_the_rate_between_scans_straightens_them) {
+  const SweepErrors none = sweep_errors(ScanTime::none, false);
+  const SweepErrors points = sweep_errors(ScanTime::points, false);
+  EXPECT_LT(points.standing, 0.5 * none.standing);  // the first scan stays as it is
+}
+
+TEST(SweepingLidar, virtual_scans_are_of_one_instant) {
+  StreetRun street(std::string(kSweep) + "[scenario]\nduration_s = 0.1\n");
+  Config config;
+  LidarUpsampler as_it_is{config};
+  const auto sheared = street.run(as_it_is);
+  ASSERT_FALSE(sheared.empty());
+  EXPECT_EQ(sheared.front().scan.time_s.size(), sheared.front().scan.size());
+  config.sweep.scan_time = ScanTime::points;
+  LidarUpsampler upsampler{config};
+  const auto straight = street.run(upsampler);
+  ASSERT_FALSE(straight.empty());
+  EXPECT_TRUE(straight.front().scan.time_s.empty());
+}
+
+TEST(SweepingLidar, times_that_the_log_does_not_have_are_asked_for_in_vain) {
+  StreetRun street("[scenario]\nduration_s = 0.1\n");
+  Config config;
+  config.sweep.scan_time = ScanTime::points;
+  LidarUpsampler upsampler{config};
+  EXPECT_THROW((void)upsampler.insert_scan(street.scan_at(sim::start_stamp()).scan),
+               std::runtime_error);
+}
+
+}  // namespace
+}  // namespace lidar_upsampling
