@@ -1,8 +1,10 @@
 #!/usr/bin/env bash
 # Makes share/results.md: every scenario of the simulator, and a drive of the KITTI raw set where its folder is given.
-#   share/results.sh [folder of 2011_09_26_drive_0052_sync]       logs and reports go to out/results, or $OUT
+#   share/results.sh [folder of 2011_09_26_drive_0052_sync]       logs and reports go to out/results, or $OUT;
+#                                                          with KEEP=1, tables that lie there are not measured anew
 set -euo pipefail
 cd "$(dirname "$0")/.."
+. share/figure.sh
 out=${OUT:-out/results}
 drive=${1:-}
 mkdir -p "$out"
@@ -11,16 +13,8 @@ runs=()
 measure() {  # <name> <title> <command's arguments ...>
   local name=$1 title=$2; shift 2
   echo "$title ..." >&2
-  bash share/measure.sh "$@" > "$out/$name.txt"
+  [ -n "${KEEP:-}" ] && [ -s "$out/$name.txt" ] || bash share/measure.sh "$@" > "$out/$name.txt"
   runs+=("$name|$title|share/measure.sh ${*/#"$drive"/2011_09_26_drive_0052_sync}")
-}
-
-# figure <table> <heading's beginning> <row> <column after the row's name>
-figure() {
-  awk -v heading="$2" -v row="$3" -v column="$4" '
-    index($0, heading) == 1 { inside = 1; next }
-    /^$/ { inside = 0 }
-    inside && $1 == row { print $(column + 1); exit }' "$1"
 }
 
 if [ -n "$drive" ]; then
@@ -34,36 +28,7 @@ for file in config/scenarios/*.ini; do
   measure "scenario-$name" "Scenario $name" scenario "$name"
 done
 
-# What each clue is worth: the mean errors with it switched off.
-ablation_logs=("scenario queue" "scenario turning" "scenario braking" "scenario sparse_16")
-[ -z "$drive" ] || ablation_logs=("drive $drive 2" "drive $drive 3" "${ablation_logs[@]}")
-ablation_row() {  # <title> <settings>
-  echo "$1 ..." >&2
-  printf '| %s | `%s` |' "$1" "$2"
-  for log in "${ablation_logs[@]}"; do
-    SET=$2 bash share/measure.sh $log --no-paper > "$out/ablation.txt"
-    printf ' %s / %s |' "$(figure "$out/ablation.txt" "moving objects, position" ours 2)" \
-      "$(figure "$out/ablation.txt" "static objects, position" ours 2)"
-  done
-  echo
-}
-ablation() {
-  printf '| | settings |'
-  for log in "${ablation_logs[@]}"; do printf ' %s |' "${log/#"drive $drive"/drive 0052, K =}"; done
-  printf '\n|---|---|'
-  for log in "${ablation_logs[@]}"; do printf -- '---|'; done
-  echo
-  ablation_row "all clues" ""
-  ablation_row "without the motion between real scans" object_motion.scan_prior=false
-  ablation_row "without what earlier images told" object_motion.image_prior=false
-  ablation_row "without the ground" object_motion.ground_prior=false
-  ablation_row "without the test for parked ones" object_motion.static_test=false
-  ablation_row "with points that are covered by now" object_motion.drop_covered=false
-  ablation_row "the picture alone (the paper)" preset=paper
-  ablation_row "with the next scan (offline)" mode=offline
-}
-
-ablation > "$out/ablation.md"
+[ -n "${KEEP:-}" ] && [ -s "$out/ablation.md" ] || bash share/ablation.sh "$drive" > "$out/ablation.md"
 
 {
   cat share/results-intro.md

@@ -153,6 +153,9 @@ void start_view(CameraView& view, std::shared_ptr<const Picture> anchor, const K
     if (candidate.known)
       candidate.rate = rate_over_ground(*candidate.known, key.T_rest_lidar_k.linear().transpose(),
                                         candidate.centroid);
+  if (!config.object_motion.prior.from_images)  // it still tells where to look for the points
+    for (Candidate& candidate : view.candidates)
+      if (candidate.known && !candidate.known->from_scans) candidate.known.reset();
   remember(view.past, key, view.candidates);
   view.R_rest_lidar_k = key.T_rest_lidar_k.linear();
   view.points = {};

@@ -100,6 +100,7 @@ std::optional<KnownMotion> motion_of(const ObjectRegistration& registration,
   if (std::abs(step.z()) > kMaxRise_m) return {};
   KnownMotion known;
   known.stamp = shifted(stamp_k, -0.5 * scans.dt);
+  known.from_scans = true;
   known.velocity_at_rest = R_rest_lidar_k * Eigen::Vector3d(step / scans.dt);
   known.yaw_rate = std::atan2(T_mov_k.linear()(1, 0), T_mov_k.linear()(0, 0)) / scans.dt;
   // Few points lock into the gaps between rings: where matches lie far apart, so do the answers.

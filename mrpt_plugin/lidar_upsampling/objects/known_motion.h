@@ -14,8 +14,9 @@ namespace lidar_upsampling {
 /// What is known of an object's motion before it is looked at, in a frame at rest.
 struct KnownMotion {
   Stamp stamp;  ///< of the instant it was measured at
-  Eigen::Vector3d velocity_at_rest = Eigen::Vector3d::Zero();     ///< m/s
-  double yaw_rate = 0;                                            ///< rad/s
+  Eigen::Vector3d velocity_at_rest = Eigen::Vector3d::Zero();  ///< m/s
+  double yaw_rate = 0;                                         ///< rad/s
+  bool from_scans = false;                                     ///< by registration; else by images
   Eigen::Matrix2d velocity_covariance = Eigen::Matrix2d::Zero();  ///< (m/s)^2, level
 };
 

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the lidar_upsampling authors
+#pragma once
+
+#include <optional>
+
+#include "lidar_upsampling/objects/scene_segments.h"
+#include "lidar_upsampling/upsampler.h"
+
+namespace lidar_upsampling {
+
+/// The last real scan and what its images need.
+struct LidarUpsampler::KeyScan {
+  LidarScan scan;
+  Pose T_rest_lidar_k = Pose::Identity();  ///< frame at rest: the first scan's
+  std::optional<SceneSegments> segments;   ///< made at its first image
+};
+
+}  // namespace lidar_upsampling
