@@ -8,7 +8,7 @@ out=${OUT:-out/results}
 drive=${1:-}
 mkdir -p "$out"
 
-ablation_logs=("scenario queue" "scenario turning" "scenario braking" "scenario sparse_16")
+ablation_logs=("scenario queue" "scenario turning")
 [ -z "$drive" ] || ablation_logs=("drive $drive 2" "drive $drive 3" "${ablation_logs[@]}")
 ablation_row() {  # <title> <settings>
   echo "$1 ..." >&2
