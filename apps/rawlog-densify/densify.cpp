@@ -164,6 +164,7 @@ DensifyReport densify(const DensifyJob& job, const std::function<void(double)>& 
   DensifyReport report;
   report.input = job.input;
   report.output = job.output;
+  report.mode = job.config.mode;
   report.detector = detector_name(job.config);
   Output output(job, report);
 

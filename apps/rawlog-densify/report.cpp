@@ -81,11 +81,27 @@ std::string fixed(double value, int width, int digits) {
   return text.str();
 }
 
+// Why points lie on the sensor's beams, or not.
+std::string resampling_line(const std::map<std::string, std::size_t>& resampling) {
+  const std::map<std::string, const char*> meanings{
+      {"done", "on the sensor's beams"},
+      {"little_motion", "as moved, which was little"},
+      {"no_beams", "as moved, as the scan tells no beams (rings of a spinning LiDAR)"},
+      {"none", "as moved"}};
+  std::ostringstream text;
+  for (const auto& [status, count] : resampling)
+    text << (text.tellp() > 0 ? ", " : "points            ") << count << "x "
+         << meanings.at(status);
+  if (text.tellp() > 0) text << '\n';
+  return text.str();
+}
+
 }  // namespace
 
 void DensifyReport::add(const VirtualScan& scan, bool keep_rows) {
   ++num_virtual_scans;
   if (scan.ego_extrapolated) ++num_extrapolated;
+  ++resampling[to_string(scan.resampling)];
   const std::vector<ObjectBox> boxes = keep_rows ? object_boxes(scan) : std::vector<ObjectBox>{};
   for (const ObjectMotion& object : scan.objects) {
     ++object_status[to_string(object.status)];
@@ -111,7 +127,7 @@ void DensifyReport::warn(const std::string& text) { ++warnings[text]; }
 nlohmann::json to_json(const DensifyReport& report) {
   nlohmann::json json{{"input", report.input},
                       {"output", report.output},
-                      {"mode", "causal"},
+                      {"mode", report.mode},
                       {"ego_motion", report.ego_source},
                       {"detector", report.detector},
                       {"carrier", report.carrier},
@@ -120,6 +136,7 @@ nlohmann::json to_json(const DensifyReport& report) {
                       {"images_in", report.num_images},
                       {"virtual_scans", report.num_virtual_scans},
                       {"virtual_scans_with_extrapolated_ego_motion", report.num_extrapolated},
+                      {"resampling", report.resampling},
                       {"tracks", report.tracks.size()},
                       {"moving_tracks", report.moving_tracks.size()},
                       {"object_status", report.object_status},
@@ -140,7 +157,7 @@ nlohmann::json to_json(const DensifyReport& report) {
 
 std::string summary(const DensifyReport& report) {
   std::ostringstream text;
-  text << "mode              causal\n"
+  text << "mode              " << report.mode << '\n'
        << "ego-motion        " << report.ego_source << '\n'
        << "object candidates " << report.detector << '\n'
        << "real scans        " << report.num_scans << '\n'
@@ -151,6 +168,7 @@ std::string summary(const DensifyReport& report) {
   for (const auto& [status, count] : report.object_status)
     text << "  " << status << std::string(16 - std::min<std::size_t>(15, status.size()), ' ')
          << count << '\n';
+  text << resampling_line(report.resampling);
   if (report.num_extrapolated > 0)
     text << "ego-motion was extrapolated for " << report.num_extrapolated << " virtual scans\n";
   if (!report.stage_order.empty()) text << "stage                   runs  median ms  p95 ms\n";

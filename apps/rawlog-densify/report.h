@@ -17,13 +17,14 @@ namespace lidar_upsampling {
 /// What a densification did: filled while the log goes by, printed and saved at the end.
 struct DensifyReport {
   std::string input, output;
-  std::string ego_source, detector, carrier;
+  std::string mode, ego_source, detector, carrier;
   std::size_t num_objects_in = 0;  ///< entries of the input log
   std::size_t num_scans = 0;       ///< real scans of the chosen LiDAR
   std::size_t num_images = 0;      ///< images of the chosen cameras
   std::size_t num_virtual_scans = 0;
-  std::size_t num_extrapolated = 0;             ///< of them, with the ego-motion extrapolated
-  std::map<std::string, std::size_t> warnings;  ///< text, how often
+  std::size_t num_extrapolated = 0;               ///< of them, with the ego-motion extrapolated
+  std::map<std::string, std::size_t> resampling;  ///< what became of it, virtual scans
+  std::map<std::string, std::size_t> warnings;    ///< text, how often
   std::map<std::string, std::vector<double>> stage_ms;  ///< stage, one time per run of it
   std::vector<std::string> stage_order;                 ///< as first met
   std::map<std::string, std::size_t> object_status;     ///< status, objects times images

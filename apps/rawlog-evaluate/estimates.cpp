@@ -36,7 +36,7 @@ MovedScan prepare_moved_scan(const LidarScan& key, const LidarScan& virtual_scan
   std::vector<int> matches = match_by_beam(key, virtual_scan);
   if (matches.empty()) matches = match_in_order(key, virtual_scan);
   Surface surface =
-      make_surface(matches.empty() ? without_ground(virtual_scan) : std::vector<Eigen::Vector3f>{});
+      Surface(matches.empty() ? without_ground(virtual_scan) : std::vector<Eigen::Vector3f>{});
   return {&virtual_scan, std::move(matches), std::move(surface)};
 }
 
@@ -44,7 +44,7 @@ RowSources prepare_rows(const ScanSet& scans, const Pose& T_ego) {
   RowSources sources{scans, T_ego, prepare_moved_scan(scans.key, scans.virtual_scan), std::nullopt,
                      std::nullopt};
   if (scans.paper) sources.paper = prepare_moved_scan(scans.key, *scans.paper);
-  if (scans.previous) sources.previous = make_surface(without_ground(*scans.previous));
+  if (scans.previous) sources.previous = Surface(without_ground(*scans.previous));
   return sources;
 }
 

@@ -208,8 +208,10 @@ class Documenter : public SettingVisitor {
 };
 
 // The published method: every object by its own pose, found in points enough for chance to be out
-// of the question.
-void leave_the_picture_alone(ObjectMotionOptions& options) {
+// of the question; the points are moved, no more.
+void leave_the_picture_alone(Config& config) {
+  config.resample = "none";
+  ObjectMotionOptions& options = config.object_motion;
   options.static_test = options.drop_covered = false;
   options.prior.from_scans = options.prior.from_images = options.prior.ground = false;
   options.min_points = 20;
@@ -230,7 +232,7 @@ void Config::loadFromConfigFile(const CConfigFileBase& source, const std::string
   Loader loader(source, section);
   visit_settings(*this, loader);
   loader.reject_unknown_keys();
-  if (preset == "paper") leave_the_picture_alone(object_motion);
+  if (preset == "paper") leave_the_picture_alone(*this);
 }
 
 void Config::saveToConfigFile(CConfigFileBase& target, const std::string& section) const {

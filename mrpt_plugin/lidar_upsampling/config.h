@@ -46,7 +46,7 @@ struct Config : public mrpt::config::CLoadableOptions {
   int compression = 1;
   std::string mode = "causal";
   std::string preset = "default";
-  std::string resample = "none";
+  std::string resample = "beam";
   int annotate = 0;
 
   ComposeOptions compose;

@@ -2,9 +2,11 @@
 // Copyright (c) 2026, the lidar_upsampling authors
 #pragma once
 
+#include <memory>
 #include <optional>
 
 #include "lidar_upsampling/objects/scene_segments.h"
+#include "lidar_upsampling/scan/resample.h"
 #include "lidar_upsampling/upsampler.h"
 
 namespace lidar_upsampling {
@@ -12,8 +14,9 @@ namespace lidar_upsampling {
 /// The last real scan and what its images need.
 struct LidarUpsampler::KeyScan {
   LidarScan scan;
-  Pose T_rest_lidar_k = Pose::Identity();  ///< frame at rest: the first scan's
-  std::optional<SceneSegments> segments;   ///< made at its first image
+  Pose T_rest_lidar_k = Pose::Identity();          ///< frame at rest: the first scan's
+  std::optional<SceneSegments> segments;           ///< made at its first image
+  std::unique_ptr<const BeamResampler> resampler;  ///< where virtual scans are to lie on the beams
 };
 
 }  // namespace lidar_upsampling

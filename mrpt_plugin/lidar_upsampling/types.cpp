@@ -23,6 +23,20 @@ const char* to_string(MotionStatus status) {
   return "unknown";
 }
 
+const char* to_string(Resampling resampling) {
+  switch (resampling) {
+    case Resampling::none:
+      return "none";
+    case Resampling::done:
+      return "done";
+    case Resampling::little_motion:
+      return "little_motion";
+    case Resampling::no_beams:
+      return "no_beams";
+  }
+  return "unknown";
+}
+
 double position_sigma(const ObjectMotion& object) {
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(object.position_covariance,
                                                             Eigen::EigenvaluesOnly);

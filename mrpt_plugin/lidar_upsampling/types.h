@@ -134,6 +134,14 @@ struct StageTime {
   double ms;
 };
 
+/// Whether a virtual scan's points lie on the sensor's own beams.
+enum class Resampling {
+  none,           ///< not asked for: the key scan's points where they have moved to
+  done,           ///< each beam ends on the first surface in its way
+  little_motion,  ///< as with `none`: they lie on the beams anyway
+  no_beams        ///< as with `none`: no rings, or not a spinning LiDAR's
+};
+
 /// A scan that no sensor took: the key scan's points at an image's instant.
 struct VirtualScan {
   LidarScan scan;                             ///< stamp = the image's; label = the output label
@@ -145,11 +153,13 @@ struct VirtualScan {
   Pose T_rest_lidar_t =
       Pose::Identity();  ///< lidar frame at t in a frame at rest, the first scan's
   bool ego_extrapolated = false;
+  Resampling resampling = Resampling::none;
   std::vector<StageTime>
       timing;  ///< of this scan's image, and of the key scan's stages at its first use
 };
 
 [[nodiscard]] const char* to_string(MotionStatus status);
+[[nodiscard]] const char* to_string(Resampling resampling);
 
 /// One standard deviation of the centroid, in its least certain direction; 0: not known.
 [[nodiscard]] double position_sigma(const ObjectMotion& object);

@@ -71,6 +71,10 @@ std::optional<VirtualScan> LidarUpsampler::insert_scan(LidarScan scan) {
   }
   key->scan = std::move(scan);
   key_ = std::move(key);
+  if (config_.resample == "beam") {
+    const Stopwatch watch(timing_, "beams");
+    key_->resampler = std::make_unique<const BeamResampler>(key_->scan, config_.resampling);
+  }
   next_.reset();
   for (auto& [label, view] : views_) view->anchor.reset();
   return waiting;
@@ -82,7 +86,7 @@ void LidarUpsampler::expect_next(const LidarScan& next) {
   const Pose T_lidar_next_lidar_k = take_up(straight, nullptr);
   const Stopwatch watch(timing_, "next scan");
   next_ = std::make_unique<NextScan>(
-      NextScan{next.stamp, make_surface(without_ground(straight, config_.segments.ground)),
+      NextScan{next.stamp, Surface(without_ground(straight, config_.segments.ground)),
                T_lidar_next_lidar_k});
 }
 
@@ -128,9 +132,9 @@ std::optional<VirtualScan> LidarUpsampler::flush() {
   VirtualScan scan = compose_virtual_scan(key_->scan, std::move(motion),
                                           config_.virtual_label(key_->scan.label), config_.compose);
   watch.stop();
-  if (config_.resample == "beam") {
+  if (key_->resampler) {
     const Stopwatch watch_beams(timing_, "resampling");
-    scan = resample_on_beams(key_->scan, std::move(scan), config_.resampling).scan;
+    scan = key_->resampler->resample(std::move(scan));
   }
   if (config_.sweep.scan_time != ScanTime::none)
     scan.scan.time_s.clear();  // all are of one instant

@@ -15,6 +15,7 @@
 #include "lidar_upsampling/objects/point_tracks.h"
 #include "lidar_upsampling/registration/scan_registration.h"
 #include "lidar_upsampling/scan/compose.h"
+#include "lidar_upsampling/scan/resample.h"
 #include "lidar_upsampling/vision/visibility.h"
 #include "scene.h"
 
@@ -156,23 +157,42 @@ void camera_ego(benchmark::State& state) {
   state.counters["tracked"] = static_cast<double>(pairs.size());
 }
 
-void compose_120k(benchmark::State& state) {
+// What moves the scene's key scan; no objects if the upsampler finds none.
+ScanMotion scan_motion() {
   const Inputs& in = inputs();
   LidarUpsampler upsampler{Config{}};
   upsampler.insert_scan(in.scan);
   upsampler.insert_image(in.key);
   const auto sample = upsampler.insert_image(in.next);
-  if (!sample) return state.SkipWithError("no virtual scan");
-  while (state.KeepRunning()) {
-    ScanMotion motion;
-    motion.stamp = in.next.stamp;
-    motion.T_lidar_t_lidar_k = in.T_lidar_t_lidar_k;
-    motion.objects = sample->objects;
-    motion.cameras = {in.next.camera};
-    benchmark::DoNotOptimize(compose_virtual_scan(in.scan, std::move(motion), "VIRTUAL", {}));
-  }
+  ScanMotion motion;
+  motion.stamp = in.next.stamp;
+  motion.T_lidar_t_lidar_k = in.T_lidar_t_lidar_k;
+  if (sample) motion.objects = sample->objects;
+  motion.cameras = {in.next.camera};
+  return motion;
+}
+
+void compose_120k(benchmark::State& state) {
+  const Inputs& in = inputs();
+  const ScanMotion motion = scan_motion();
+  while (state.KeepRunning())
+    benchmark::DoNotOptimize(compose_virtual_scan(in.scan, motion, "VIRTUAL", {}));
   state.counters["points"] = static_cast<double>(in.scan.size());
-  state.counters["objects"] = static_cast<double>(sample->objects.size());
+  state.counters["objects"] = static_cast<double>(motion.objects.size());
+}
+
+// Once per real scan.
+void beams_120k(benchmark::State& state) {
+  const Inputs& in = inputs();
+  while (state.KeepRunning()) benchmark::DoNotOptimize(BeamResampler(in.scan));
+}
+
+void resample_120k(benchmark::State& state) {
+  const Inputs& in = inputs();
+  const VirtualScan moved = compose_virtual_scan(in.scan, scan_motion(), "VIRTUAL", {});
+  const BeamResampler resampler(in.scan);
+  while (state.KeepRunning()) benchmark::DoNotOptimize(resampler.resample(moved));
+  state.counters["points"] = static_cast<double>(in.scan.size());
 }
 
 // Into a real file, which goes when the writer does; gzip takes most of the time.
@@ -195,6 +215,8 @@ LIDAR_UPSAMPLING_BENCHMARK(klt_1000_points);
 LIDAR_UPSAMPLING_BENCHMARK(pose_100_points);
 LIDAR_UPSAMPLING_BENCHMARK(camera_ego);
 LIDAR_UPSAMPLING_BENCHMARK(compose_120k);
+LIDAR_UPSAMPLING_BENCHMARK(beams_120k);
+LIDAR_UPSAMPLING_BENCHMARK(resample_120k);
 LIDAR_UPSAMPLING_BENCHMARK(write_scan);
 
 }  // namespace

@@ -83,11 +83,11 @@ TEST(Surface, normals_stand_on_a_plane_and_are_none_on_a_line) {
     plane.emplace_back(0.1F * static_cast<float>(i % 10), 0.1F * static_cast<float>(row), 2);
     line.emplace_back(0.1F * static_cast<float>(i), 0, 0);
   }
-  for (const auto& normal : make_surface(plane).normals) {
-    EXPECT_NEAR(std::abs(normal.z()), 1, 1e-3);
-  }
-  for (const auto& normal : make_surface(line).normals) {
-    EXPECT_TRUE(normal.isZero());
+  const Surface level(plane), thread(line);
+  for (int i = 0; i < 100; ++i) {
+    EXPECT_NEAR(std::abs(level.normal(i).z()), 1, 1e-3);
+    EXPECT_EQ(level.normal(i), level.normal(i));
+    EXPECT_TRUE(thread.normal(i).isZero());
   }
 }
 

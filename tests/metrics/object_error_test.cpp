@@ -78,7 +78,7 @@ TEST(ObjectRegistration, finds_the_motion_of_cars_that_turn_overtake_and_come) {
   for (const auto& [car_k, car_t] : drives) {
     const Scene scene(car_k, car_t);
     ASSERT_GE(scene.points.size(), 30U);
-    const auto found = register_object(scene.points, make_surface(scene.reference.points),
+    const auto found = register_object(scene.points, Surface(scene.reference.points),
                                        {scene.T_ego, Pose::Identity()});
     EXPECT_EQ(found.status, RegistrationStatus::reliable) << to_string(found.status);
     EXPECT_LT(position_error(scene.truth(), found.T_target_object), 0.06);
@@ -87,8 +87,7 @@ TEST(ObjectRegistration, finds_the_motion_of_cars_that_turn_overtake_and_come) {
 
 TEST(ObjectRegistration, says_so_when_the_object_has_gone) {
   Scene scene(kOncomingK, box_at(300, 0, 0));
-  const auto found =
-      register_object(scene.points, make_surface(scene.reference.points), {scene.T_ego});
+  const auto found = register_object(scene.points, Surface(scene.reference.points), {scene.T_ego});
   EXPECT_EQ(found.status, RegistrationStatus::poor_overlap);
 }
 
@@ -104,13 +103,13 @@ TEST(ObjectRegistration, says_so_when_a_wall_slides_on_itself) {
       }
     }
   }
-  const auto found = register_object(part, make_surface(wall), {Pose::Identity()});
+  const auto found = register_object(part, Surface(wall), {Pose::Identity()});
   EXPECT_EQ(found.status, RegistrationStatus::ambiguous);
 }
 
 TEST(ObjectRegistration, refuses_a_handful_of_points_and_no_guess) {
   const Scene scene(kOncomingK, kOncomingT);
-  const Surface surface = make_surface(scene.reference.points);
+  const Surface surface = Surface(scene.reference.points);
   const Points few(scene.points.begin(), scene.points.begin() + 10);
   EXPECT_EQ(register_object(few, surface, {Pose::Identity()}).status,
             RegistrationStatus::too_few_points);
@@ -126,13 +125,13 @@ TEST(ObjectError, is_zero_for_a_perfect_virtual_scan_and_the_step_for_a_copied_o
   const LidarScan perfect = scene.virtual_scan(scene.T_object);
   const auto recovered =
       recover_motion(scene.key, perfect, scene.object, match_by_beam(scene.key, perfect),
-                     make_surface({}), {scene.T_ego});
+                     Surface({}), {scene.T_ego});
   ASSERT_TRUE(recovered);
   EXPECT_LT(position_error(truth, *recovered), 1e-4);
 
   const auto copied =
       recover_motion(scene.key, scene.key, scene.object, match_by_beam(scene.key, scene.key),
-                     make_surface({}), {scene.T_ego});
+                     Surface({}), {scene.T_ego});
   ASSERT_TRUE(copied);
   EXPECT_NEAR(position_error(truth, *copied), hold, 1e-4);
 }
@@ -140,8 +139,8 @@ TEST(ObjectError, is_zero_for_a_perfect_virtual_scan_and_the_step_for_a_copied_o
 TEST(ObjectError, is_recovered_from_points_alone_when_the_carrier_lost_the_rings) {
   const Scene scene(kOncomingK, kOncomingT);
   const LidarScan perfect = scene.virtual_scan(scene.T_object);
-  const auto recovered = recover_motion(scene.key, perfect, scene.object, {},
-                                        make_surface(perfect.points), {scene.T_ego});
+  const auto recovered =
+      recover_motion(scene.key, perfect, scene.object, {}, Surface(perfect.points), {scene.T_ego});
   ASSERT_TRUE(recovered);
   EXPECT_LT(position_error(scene.truth(), *recovered), 0.02);
 }

@@ -20,7 +20,7 @@ std::vector<Eigen::Vector3f> vehicle(float x) {
 }
 
 NextScan next_scan(std::vector<Eigen::Vector3f> points) {
-  return {shifted(Stamp{}, kPeriod), make_surface(std::move(points)), Pose::Identity()};
+  return {shifted(Stamp{}, kPeriod), Surface(std::move(points)), Pose::Identity()};
 }
 
 std::optional<MotionToNext> measured(const NextScan& next) {

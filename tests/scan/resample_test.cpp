@@ -26,7 +26,7 @@ TEST_P(ResampleForRings, rings_on_the_ground_lie_where_the_moved_sensor_draws_th
   const Pose T_world_lidar_t = driven(0.8, 0.2, 3);
   const LabelledScan key = scan_of({}, spinner), truth = scan_of({}, spinner, T_world_lidar_t);
   const auto [result, status] = resample_on_beams(key.scan, moved_scan(key, T_world_lidar_t));
-  ASSERT_EQ(status, ResampleStatus::done);
+  ASSERT_EQ(status, Resampling::done);
   const auto true_point = by_beam(truth.scan);
   int compared = 0;
   for (std::size_t i = 0; i < result.scan.size(); ++i) {
@@ -52,7 +52,7 @@ TEST(Resample, lasers_apart_from_each_other_see_what_each_of_them_sees) {
   const LabelledScan key = scan_of(blocks, spinner);
   const LabelledScan truth = scan_of(blocks, spinner, T_world_lidar_t);
   const auto [result, status] = resample_on_beams(key.scan, moved_scan(key, T_world_lidar_t));
-  ASSERT_EQ(status, ResampleStatus::done);
+  ASSERT_EQ(status, Resampling::done);
   const auto true_point = by_beam(truth.scan);
   int right = 0, wrong = 0;
   for (std::size_t i = 0; i < result.scan.size(); ++i) {
@@ -71,7 +71,7 @@ TEST(Resample, noise_does_not_grow) {
   const Pose T_world_lidar_t = driven(0.5, 0, 0);
   const LabelledScan key = scan_of({kWall}, spinner);
   const auto [result, status] = resample_on_beams(key.scan, moved_scan(key, T_world_lidar_t));
-  ASSERT_EQ(status, ResampleStatus::done);
+  ASSERT_EQ(status, Resampling::done);
   double sq_sum = 0;
   int count = 0;
   for (std::size_t i = 0; i < result.scan.size(); ++i) {
@@ -90,7 +90,7 @@ TEST(Resample, what_turns_into_empty_beams_is_seen_by_them) {
   const Pose T_world_lidar_t = driven(0, 0, 20);
   const LabelledScan key = scan_of({tower}, {}), truth = scan_of({tower}, {}, T_world_lidar_t);
   const auto [result, status] = resample_on_beams(key.scan, moved_scan(key, T_world_lidar_t));
-  ASSERT_EQ(status, ResampleStatus::done);
+  ASSERT_EQ(status, Resampling::done);
   const auto above = [](const LidarScan& scan) {
     return std::count_if(scan.points.begin(), scan.points.end(),
                          [](const Eigen::Vector3f& p) { return p.z() > 0; });
@@ -110,7 +110,7 @@ TEST(Resample, ring_column_and_time_are_the_beams_the_rest_is_the_surfaces) {
   const Spinner spinner;
   const LabelledScan key = scan_of({kWall}, spinner);
   const auto [result, status] = resample_on_beams(key.scan, moved_scan(key, driven(1, 0, 0)));
-  ASSERT_EQ(status, ResampleStatus::done);
+  ASSERT_EQ(status, Resampling::done);
   const LidarScan& scan = result.scan;
   ASSERT_EQ(by_beam(scan).size(), scan.size());
   ASSERT_EQ(scan.intensity.size(), scan.size());
@@ -146,14 +146,13 @@ TEST(Resample, nothing_is_done_below_the_motion_that_is_worth_it) {
   const LabelledScan key = scan_of({kWall, kPost}, {});
   const VirtualScan hardly_moved = moved_scan(key, driven(0.02, 0, 0));
   const auto [result, status] = resample_on_beams(key.scan, hardly_moved);
-  EXPECT_EQ(status, ResampleStatus::little_motion);
+  EXPECT_EQ(status, Resampling::little_motion);
   EXPECT_EQ(result.scan.points, hardly_moved.scan.points);
   EXPECT_EQ(result.source_index, hardly_moved.source_index);
 
   const VirtualScan object_moved = moved_scan(key, Pose::Identity(), 1, {0, 0.5, 0});
-  EXPECT_EQ(resample_on_beams(key.scan, object_moved).status, ResampleStatus::done);
-  EXPECT_EQ(resample_on_beams(key.scan, moved_scan(key, driven(0, 0, 2))).status,
-            ResampleStatus::done);
+  EXPECT_EQ(resample_on_beams(key.scan, object_moved).status, Resampling::done);
+  EXPECT_EQ(resample_on_beams(key.scan, moved_scan(key, driven(0, 0, 2))).status, Resampling::done);
 }
 
 TEST(Resample, a_scan_without_rings_stays_as_it_is) {
@@ -161,7 +160,7 @@ TEST(Resample, a_scan_without_rings_stays_as_it_is) {
   key.scan.ring.clear();
   const VirtualScan moved = moved_scan(key, driven(1, 0, 0));
   const auto [result, status] = resample_on_beams(key.scan, moved);
-  EXPECT_EQ(status, ResampleStatus::no_beams);
+  EXPECT_EQ(status, Resampling::no_beams);
   EXPECT_EQ(result.scan.points, moved.scan.points);
 }
 
@@ -172,7 +171,7 @@ TEST(Resample, works_without_columns) {
   key.scan.column.clear();
   key.scan.num_columns = 0;
   const auto [result, status] = resample_on_beams(key.scan, moved_scan(key, driven(1, 0, 0)));
-  EXPECT_EQ(status, ResampleStatus::done);
+  EXPECT_EQ(status, Resampling::done);
   EXPECT_EQ(result.scan.points, expected.scan.scan.points);
   EXPECT_TRUE(result.scan.column.empty());
 }

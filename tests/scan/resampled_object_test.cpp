@@ -25,7 +25,7 @@ class ResampledCar : public ::testing::TestWithParam<double> {
     const LabelledScan key = scan_of({kWallBehind, kCarBefore}, {});
     truth_ = scan_of({kWallBehind, kCarAfter}, {}, T_world_lidar_t_);
     auto resampled = resample_on_beams(key.scan, moved_scan(key, T_world_lidar_t_, kCar, kShift));
-    ASSERT_EQ(resampled.status, ResampleStatus::done);
+    ASSERT_EQ(resampled.status, Resampling::done);
     result_ = std::move(resampled.scan);
     true_point_ = by_beam(truth_.scan);
   }
@@ -113,7 +113,7 @@ TEST(ResampledScan, leaves_out_moving_objects_that_are_not_wanted) {
   const VirtualScan without = compose_virtual_scan(key.scan, motion, "LIDAR_VIRTUAL",
                                                    {OutsideView::ego, MovingObjects::drop});
   const auto [result, status] = resample_on_beams(key.scan, without);
-  ASSERT_EQ(status, ResampleStatus::done);
+  ASSERT_EQ(status, Resampling::done);
   EXPECT_EQ(std::count(result.track_id.begin(), result.track_id.end(), 7), 0);
   EXPECT_GT(result.scan.size(), 50000U);
 }

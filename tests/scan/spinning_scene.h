@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "lidar_upsampling/scan/compose.h"
+#include "lidar_upsampling/scan/resample.h"
 #include "lidar_upsampling/types.h"
 
 namespace lidar_upsampling::testing {
@@ -120,6 +121,18 @@ inline VirtualScan moved_scan(const LabelledScan& key, const Pose& T_world_lidar
     motion.objects.push_back(object);
   }
   return compose_virtual_scan(key.scan, motion, "LIDAR_VIRTUAL", {});
+}
+
+/// A resampled scan, and what was done to it.
+struct Resampled {
+  VirtualScan scan;
+  Resampling status;
+};
+
+inline Resampled resample_on_beams(const LidarScan& key, VirtualScan moved) {
+  Resampled result{BeamResampler(key).resample(std::move(moved)), Resampling::none};
+  result.status = result.scan.resampling;
+  return result;
 }
 
 inline Pose driven(double forward, double left, double yaw_deg) {

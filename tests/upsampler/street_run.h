@@ -49,6 +49,13 @@ yaw_deg = 180
 speed_mps = 9
 )";
 
+/// Settings that leave every virtual point the real one that it was, so that each has its truth.
+inline Config moving_points() {
+  Config config;
+  config.resample = "none";
+  return config;
+}
+
 /// Scans and images of a simulated street, fed to an upsampler in the order of their stamps.
 class StreetRun {
  public:

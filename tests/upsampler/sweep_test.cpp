@@ -39,7 +39,7 @@ double median(std::vector<double> values) {
 /// objects in view the mean.
 SweepErrors sweep_errors(ScanTime scan_time, bool with_poses = true) {
   StreetRun street(kSweep);
-  Config config;
+  Config config = moving_points();
   config.sweep.scan_time = scan_time;
   LidarUpsampler upsampler{config};
   const auto scans = street.run(upsampler, with_poses);
@@ -89,7 +89,7 @@ TEST(SweepingLidar, without_poses_the_rate_between_scans_straightens_them) {
 
 TEST(SweepingLidar, virtual_scans_are_of_one_instant) {
   StreetRun street(std::string(kSweep) + "[scenario]\nduration_s = 0.1\n");
-  Config config;
+  Config config = moving_points();
   LidarUpsampler as_it_is{config};
   const auto sheared = street.run(as_it_is);
   ASSERT_FALSE(sheared.empty());
@@ -103,7 +103,7 @@ TEST(SweepingLidar, virtual_scans_are_of_one_instant) {
 
 TEST(SweepingLidar, times_that_the_log_does_not_have_are_asked_for_in_vain) {
   StreetRun street("[scenario]\nduration_s = 0.1\n");
-  Config config;
+  Config config = moving_points();
   config.sweep.scan_time = ScanTime::points;
   LidarUpsampler upsampler{config};
   EXPECT_THROW((void)upsampler.insert_scan(street.scan_at(sim::start_stamp()).scan),

@@ -4,6 +4,9 @@
 #include <tbb/global_control.h>
 
 #include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
 
 #include "street_run.h"
 
@@ -31,7 +34,7 @@ void expect_close_to_truth(const StreetRun& street, const std::vector<VirtualSca
 
 TEST(LidarUpsampler, a_virtual_scan_comes_at_every_image_between_two_scans) {
   StreetRun street;
-  LidarUpsampler upsampler{Config()};
+  LidarUpsampler upsampler{moving_points()};
   const auto scans = street.run(upsampler);
   ASSERT_EQ(scans.size(), 10U);
   for (const VirtualScan& scan : scans) {
@@ -44,13 +47,13 @@ TEST(LidarUpsampler, a_virtual_scan_comes_at_every_image_between_two_scans) {
 
 TEST(LidarUpsampler, points_are_where_the_true_motion_puts_them) {
   StreetRun street;
-  LidarUpsampler upsampler{Config()};
+  LidarUpsampler upsampler{moving_points()};
   expect_close_to_truth(street, street.run(upsampler), 0.02, 0.1);
 }
 
 TEST(LidarUpsampler, moving_cars_are_told_from_parked_ones) {
   StreetRun street;
-  LidarUpsampler upsampler{Config()};
+  LidarUpsampler upsampler{moving_points()};
   const auto scans = street.run(upsampler);
   const auto moving = moving_objects(scans.back());
   ASSERT_GE(moving.size(), 2U);
@@ -73,7 +76,7 @@ double mean_error_of_moving_points(const StreetRun& street, const std::vector<Vi
 
 TEST(LidarUpsampler, who_knows_the_next_scan_moves_cars_better) {
   StreetRun street;
-  LidarUpsampler causal{Config()}, offline{Config()};
+  LidarUpsampler causal{moving_points()}, offline{moving_points()};
   const auto blind = street.run(causal), knowing = street.run(offline, true, true);
   ASSERT_EQ(blind.size(), 10U);
   ASSERT_EQ(knowing.size(), 10U);
@@ -83,7 +86,7 @@ TEST(LidarUpsampler, who_knows_the_next_scan_moves_cars_better) {
 
 TEST(LidarUpsampler, point_fields_stay_with_their_points) {
   StreetRun street("[scenario]\nduration_s = 0.1\n");
-  LidarUpsampler upsampler{Config()};
+  LidarUpsampler upsampler{moving_points()};
   const auto scans = street.run(upsampler);
   ASSERT_FALSE(scans.empty());
   const VirtualScan& scan = scans.front();
@@ -99,7 +102,7 @@ TEST(LidarUpsampler, point_fields_stay_with_their_points) {
 
 TEST(LidarUpsampler, without_poses_the_camera_gives_the_ego_motion) {
   StreetRun street;
-  LidarUpsampler upsampler{Config()};
+  LidarUpsampler upsampler{moving_points()};
   const auto scans = street.run(upsampler, false);
   ASSERT_EQ(scans.size(), 10U);
   EXPECT_EQ(upsampler.ego_motion().source(), EgoSource::camera);
@@ -108,7 +111,7 @@ TEST(LidarUpsampler, without_poses_the_camera_gives_the_ego_motion) {
 
 TEST(LidarUpsampler, a_camera_with_unrelated_stamps_works_as_well) {
   StreetRun street("[scenario]\nduration_s = 1\n[camera.CAM0]\nrate_hz = 15\nphase_s = 0.0231\n");
-  LidarUpsampler upsampler{Config()};
+  LidarUpsampler upsampler{moving_points()};
   const auto scans = street.run(upsampler);
   ASSERT_GE(scans.size(), 9U);
   expect_close_to_truth(street, scans, 0.02, 0.15);
@@ -118,7 +121,7 @@ TEST(LidarUpsampler, lens_distortion_is_taken_into_account) {
   StreetRun street(
       "[camera.CAM0]\ndistortion_model = plumb_bob\ndistortion = -0.28 0.09 0.001 -0.0005 -0.01 0 "
       "0 0\n");
-  LidarUpsampler upsampler{Config()};
+  LidarUpsampler upsampler{moving_points()};
   expect_close_to_truth(street, street.run(upsampler), 0.02, 0.1);
 }
 
@@ -127,7 +130,7 @@ TEST(LidarUpsampler, two_cameras_make_one_virtual_scan_per_instant) {
       "[camera.REAR]\nwidth = 828\nheight = 250\nfx = 480\nrate_hz = 30\norientation_deg = 180 0 "
       "0\n"
       "[vehicle.behind]\nx_m = -16\ny_m = -1.7\nspeed_mps = 12\n");
-  LidarUpsampler upsampler{Config()};
+  LidarUpsampler upsampler{moving_points()};
   upsampler.expect_cameras({"CAM0", "REAR"});
   const auto scans = street.run(upsampler);
   ASSERT_EQ(scans.size(), 10U);
@@ -136,6 +139,31 @@ TEST(LidarUpsampler, two_cameras_make_one_virtual_scan_per_instant) {
     if (object->camera_label == "REAR" && std::abs(object->velocity_lidar_k.x() - 12) < 1.5)
       seen_behind = true;
   EXPECT_TRUE(seen_behind);
+}
+
+TEST(LidarUpsampler, each_beam_measures_what_the_sensor_would_have_measured) {
+  StreetRun street("[scenario]\nduration_s = 0.2\n");
+  LidarUpsampler upsampler{Config()};
+  const auto scans = street.run(upsampler);
+  ASSERT_FALSE(scans.empty());
+  for (const VirtualScan& scan : scans) {
+    ASSERT_EQ(scan.resampling, Resampling::done);
+    const LidarScan truth = street.scan_at(scan.scan.stamp).scan;
+    std::map<std::pair<int, int>, float> true_range;
+    for (std::size_t i = 0; i < truth.size(); ++i)
+      true_range[{truth.ring[i], truth.column[i]}] = truth.points[i].norm();
+    std::vector<float> errors;
+    for (std::size_t i = 0; i < scan.scan.size(); ++i) {
+      const Eigen::Vector3f& point = scan.scan.points[i];
+      ASSERT_NEAR(std::atan2(point.z(), point.head<2>().norm()),
+                  street.scenario.lidar.elevations[scan.scan.ring[i]], 2e-3);
+      const auto truly = true_range.find({scan.scan.ring[i], scan.scan.column[i]});
+      if (truly != true_range.end()) errors.push_back(std::abs(point.norm() - truly->second));
+    }
+    ASSERT_GT(errors.size(), 20000U);
+    std::nth_element(errors.begin(), errors.begin() + errors.size() * 3 / 4, errors.end());
+    EXPECT_LT(errors[errors.size() * 3 / 4], 0.04F);  // ranges are noisy by 0.01 m
+  }
 }
 
 TEST(LidarUpsampler, moving_objects_can_be_left_out) {
@@ -176,7 +204,7 @@ TEST(LidarUpsampler, the_result_is_the_same_for_any_number_of_threads) {
 
 TEST(LidarUpsampler, scans_and_images_out_of_order_do_no_harm) {
   StreetRun street("[scenario]\nduration_s = 0.2\n");
-  LidarUpsampler upsampler{Config()};
+  LidarUpsampler upsampler{moving_points()};
   const auto first = street.scan_at(sim::stamp_of(1, 10, 0)).scan;
   EXPECT_FALSE(upsampler.insert_scan(first));
   EXPECT_FALSE(upsampler.insert_scan(street.scan_at(sim::stamp_of(0, 10, 0)).scan));

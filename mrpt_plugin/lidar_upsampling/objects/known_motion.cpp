@@ -72,8 +72,7 @@ bool can_be_registered(const ObjectScans& scans, const ObjectRegistrationOptions
 ObjectRegistration register_backwards(const ObjectScans& scans, std::vector<Pose> guesses,
                                       const ObjectRegistrationOptions& options) {
   for (Pose& guess : guesses) guess = guess.inverse();
-  ObjectRegistration result =
-      register_object(scans.now, make_surface(scans.before), guesses, options);
+  ObjectRegistration result = register_object(scans.now, Surface(scans.before), guesses, options);
   result.T_target_object = result.T_target_object.inverse();
   const Eigen::Matrix2d turn = result.T_target_object.linear().topLeftCorner<2, 2>();
   result.slack = turn * result.slack * turn.transpose();
@@ -84,7 +83,7 @@ ObjectRegistration register_backwards(const ObjectScans& scans, std::vector<Pose
 ObjectRegistration register_views(const ObjectScans& scans, const std::vector<Pose>& guesses,
                                   const ObjectRegistrationOptions& options) {
   if (scans.before.size() > scans.now.size()) return register_backwards(scans, guesses, options);
-  return register_object(scans.before, make_surface(scans.now), guesses, options);
+  return register_object(scans.before, Surface(scans.now), guesses, options);
 }
 
 std::optional<KnownMotion> motion_of(const ObjectRegistration& registration,

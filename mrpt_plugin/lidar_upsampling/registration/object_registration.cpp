@@ -51,7 +51,7 @@ double score_of(const Problem& problem, const Pose& T_target_object, int stride 
   double sum = 0;
   int count = 0;
   for (std::size_t i = 0; i < problem.points.size(); i += stride, ++count) {
-    const auto nearest = problem.target.index.nearest(T * problem.points[i]);
+    const auto nearest = problem.target.nearest(T * problem.points[i]);
     sum += std::min<double>(nearest.sq_distance, kScoreCut * kScoreCut);
   }
   return std::sqrt(sum / count);
@@ -60,13 +60,13 @@ double score_of(const Problem& problem, const Pose& T_target_object, int stride 
 /// Adds one point's match: across the surface with full weight, along it with little.
 void add_match(const Problem& problem, const Eigen::Vector3d& point, const Eigen::Vector3d& pivot,
                double scale, Matrix6d& H, Twist& b) {
-  const auto nearest = problem.target.index.nearest(point.cast<float>());
+  const auto nearest = problem.target.nearest(point.cast<float>());
   const double reach = problem.options.max_correspondence_m;
   if (nearest.index < 0 || nearest.sq_distance > reach * reach) {
     return;
   }
-  const Eigen::Vector3d error = point - problem.target.index.points()[nearest.index].cast<double>();
-  const Eigen::Vector3d normal = problem.target.normals[nearest.index].cast<double>();
+  const Eigen::Vector3d error = point - problem.target.points()[nearest.index].cast<double>();
+  const Eigen::Vector3d normal = problem.target.normal(nearest.index).cast<double>();
   const double along = normal.isZero() ? 1 : problem.options.point_weight;
   const Eigen::Matrix3d metric =
       along * Eigen::Matrix3d::Identity() + (1 - along) * normal * normal.transpose();
@@ -102,9 +102,9 @@ double residual_of(const Problem& problem, const Pose& T_target_object) {
   double sum = 0;
   for (const auto& point : problem.points) {
     const Eigen::Vector3f at = T_target_object.cast<float>() * point;
-    const auto nearest = problem.target.index.nearest(at);
-    const Eigen::Vector3f& normal = problem.target.normals[nearest.index];
-    const Eigen::Vector3f error = at - problem.target.index.points()[nearest.index];
+    const auto nearest = problem.target.nearest(at);
+    const Eigen::Vector3f normal = problem.target.normal(nearest.index);
+    const Eigen::Vector3f error = at - problem.target.points()[nearest.index];
     const double sq = normal.isZero() ? error.squaredNorm() : std::pow(normal.dot(error), 2);
     sum += std::min(sq, kScoreCut * kScoreCut);
   }
@@ -200,7 +200,7 @@ double overlap_of(const Problem& problem, const Pose& T_target_object) {
   const double reach = problem.options.overlap_distance_m;
   const auto covered = std::count_if(
       problem.points.begin(), problem.points.end(), [&](const Eigen::Vector3f& point) {
-        return problem.target.index.nearest(T * point).sq_distance < reach * reach;
+        return problem.target.nearest(T * point).sq_distance < reach * reach;
       });
   return static_cast<double>(covered) / static_cast<double>(problem.points.size());
 }
@@ -229,8 +229,7 @@ ObjectRegistration register_object(const Points& points_object, const Surface& t
   }
   ObjectRegistration result;
   result.T_target_object = guesses.front();
-  if (static_cast<int>(points_object.size()) < options.min_points ||
-      target.index.points().empty()) {
+  if (static_cast<int>(points_object.size()) < options.min_points || target.points().empty()) {
     return result;
   }
   const Points points = thinned(points_object, options.max_points);

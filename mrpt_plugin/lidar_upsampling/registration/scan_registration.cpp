@@ -55,16 +55,16 @@ std::vector<Eigen::Vector3f> every_nth(std::vector<Eigen::Vector3f> points, int 
 
 Match match_point(const Eigen::Vector3f& point, const Surface& target, double max_distance) {
   Match match;
-  const auto nearest = target.index.nearest(point);
+  const auto nearest = target.nearest(point);
   if (nearest.index < 0 || nearest.sq_distance > max_distance * max_distance) {
     return match;
   }
-  const Eigen::Vector3d normal = target.normals[nearest.index].cast<double>();
+  const Eigen::Vector3d normal = target.normal(nearest.index).cast<double>();
   if (normal.isZero()) {
     return match;
   }
   const Eigen::Vector3d p = point.cast<double>();
-  match.residual = normal.dot(p - target.index.points()[nearest.index].cast<double>());
+  match.residual = normal.dot(p - target.points()[nearest.index].cast<double>());
   match.jacobian << p.cross(normal), normal;
   match.valid = true;
   return match;
@@ -167,7 +167,7 @@ std::optional<Registration> register_scans(const std::vector<Eigen::Vector3f>& p
   if (source.size() < kMinCorrespondences || target.size() < kMinCorrespondences) {
     return std::nullopt;
   }
-  const Surface surface = make_surface(std::move(target));
+  const Surface surface = Surface(std::move(target));
   return iterate(source, surface, T_target_source_guess, options);
 }
 

@@ -2,10 +2,8 @@
 // Copyright (c) 2026, the lidar_upsampling authors
 #include "lidar_upsampling/registration/surface.h"
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-
 #include <Eigen/Eigenvalues>
+#include <atomic>
 #include <cmath>
 #include <cstdint>
 #include <stdexcept>
@@ -59,8 +57,8 @@ class VoxelSlots {
 };
 
 Eigen::Vector3f normal_at(const PointIndex& index, const Eigen::Vector3f& point,
-                          const NormalOptions& options,
-                          std::vector<PointIndex::Neighbor>& neighbors) {
+                          const NormalOptions& options) {
+  std::vector<PointIndex::Neighbor> neighbors;
   index.nearest(point, options.num_neighbors, neighbors);
   const auto sq_radius = static_cast<float>(options.max_radius_m * options.max_radius_m);
   Eigen::Vector3f sum = Eigen::Vector3f::Zero();
@@ -116,17 +114,34 @@ std::vector<Eigen::Vector3f> voxel_downsampled(const std::vector<Eigen::Vector3f
   return sums;
 }
 
-Surface make_surface(std::vector<Eigen::Vector3f> points, const NormalOptions& options) {
-  Surface surface{PointIndex(std::move(points)), {}};
-  const auto& cloud = surface.index.points();
-  surface.normals.resize(cloud.size());
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, cloud.size(), 256), [&](const auto& range) {
-    std::vector<PointIndex::Neighbor> neighbors;
-    for (std::size_t i = range.begin(); i < range.end(); ++i) {
-      surface.normals[i] = normal_at(surface.index, cloud[i], options, neighbors);
-    }
-  });
-  return surface;
+struct Surface::Known {
+  enum State : std::uint8_t { unknown, under_way, ready };
+
+  explicit Known(std::size_t size) : normals(size), states(size) {}
+
+  std::vector<Eigen::Vector3f> normals;
+  std::vector<std::atomic<std::uint8_t>> states;
+};
+
+Surface::Surface(std::vector<Eigen::Vector3f> points, const NormalOptions& options)
+    : index_(std::move(points)),
+      options_(options),
+      known_(std::make_unique<Known>(index_.points().size())) {}
+Surface::~Surface() = default;
+Surface::Surface(Surface&&) noexcept = default;
+Surface& Surface::operator=(Surface&&) noexcept = default;
+
+Eigen::Vector3f Surface::normal(int point) const {
+  std::atomic<std::uint8_t>& state = known_->states[point];
+  if (state.load(std::memory_order_acquire) == Known::ready) return known_->normals[point];
+  const Eigen::Vector3f normal = normal_at(index_, points()[point], options_);
+  // Whoever comes while another one writes goes on with its own.
+  std::uint8_t expected = Known::unknown;
+  if (state.compare_exchange_strong(expected, Known::under_way, std::memory_order_relaxed)) {
+    known_->normals[point] = normal;
+    state.store(Known::ready, std::memory_order_release);
+  }
+  return normal;
 }
 
 }  // namespace lidar_upsampling

@@ -2,6 +2,7 @@
 // Copyright (c) 2026, the lidar_upsampling authors
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "lidar_upsampling/registration/point_index.h"
@@ -12,12 +13,6 @@ namespace lidar_upsampling {
 [[nodiscard]] std::vector<Eigen::Vector3f> voxel_downsampled(
     const std::vector<Eigen::Vector3f>& points, double voxel_m);
 
-/// A point cloud with the surface's normal at each point.
-struct Surface {
-  PointIndex index;
-  std::vector<Eigen::Vector3f> normals;  ///< unit length; zero where the neighbours form no plane
-};
-
 struct NormalOptions {
   int num_neighbors = 10;
   double max_radius_m = 2.0;   ///< neighbours further away do not count
@@ -25,8 +20,29 @@ struct NormalOptions {
   double min_width = 0.01;     ///< middle over largest eigenvalue: less is a line
 };
 
-/// Normals by principal components of the neighbours, in parallel.
-[[nodiscard]] Surface make_surface(std::vector<Eigen::Vector3f> points,
-                                   const NormalOptions& options = {});
+/// @brief A point cloud that knows the surface's normal at each point: by principal components of
+/// the neighbours, made when first asked for, as registration asks for few. Safe from any number of
+/// threads.
+class Surface {
+ public:
+  explicit Surface(std::vector<Eigen::Vector3f> points, const NormalOptions& options = {});
+  ~Surface();
+  Surface(Surface&&) noexcept;
+  Surface& operator=(Surface&&) noexcept;
+
+  [[nodiscard]] const std::vector<Eigen::Vector3f>& points() const { return index_.points(); }
+  [[nodiscard]] PointIndex::Neighbor nearest(const Eigen::Vector3f& query) const {
+    return index_.nearest(query);
+  }
+  /// Unit length; zero where the neighbours form no plane.
+  [[nodiscard]] Eigen::Vector3f normal(int point) const;
+
+ private:
+  struct Known;  // normals so far
+
+  PointIndex index_;
+  NormalOptions options_;
+  std::unique_ptr<Known> known_;
+};
 
 }  // namespace lidar_upsampling

@@ -48,6 +48,14 @@ std::vector<Ring> split_by_ring(const LidarScan& scan) {
   return rings;
 }
 
+// Most sensors turn steadily: their rows are in order but for the way round and the beginning.
+void turn_into_order(std::vector<std::pair<float, int>>& row) {
+  std::size_t falls = 0;
+  for (std::size_t k = 1; k < row.size(); ++k) falls += row[k].first < row[k - 1].first ? 1 : 0;
+  if (2 * falls > row.size()) std::reverse(row.begin(), row.end());
+  std::rotate(row.begin(), std::min_element(row.begin(), row.end()), row.end());
+}
+
 void sort_by_azimuth(const LidarScan& scan, Ring& ring) {
   std::vector<std::pair<float, int>> sorted;
   sorted.reserve(ring.points.size());
@@ -56,6 +64,7 @@ void sort_by_azimuth(const LidarScan& scan, Ring& ring) {
     sorted.emplace_back(
         azimuth < 0 ? std::min(azimuth + kTurn, std::nextafter(kTurn, 0.F)) : azimuth, i);
   }
+  turn_into_order(sorted);
   if (!std::is_sorted(sorted.begin(), sorted.end())) std::sort(sorted.begin(), sorted.end());
   std::vector<float> steps;
   for (std::size_t k = 0; k < sorted.size(); ++k) {

@@ -160,28 +160,38 @@ Eigen::Vector3f cell_of(const BeamPattern& pattern, int row) {
 
 }  // namespace
 
-std::vector<Patch> make_patches(const LidarScan& scan, const BeamPattern& pattern,
-                                const std::vector<int>& owner, const PatchOptions& options) {
-  std::vector<Patch> patches(scan.size());
+PatchMaker::PatchMaker(const LidarScan& scan, const BeamPattern& pattern,
+                       const PatchOptions& options)
+    : scan_(scan),
+      pattern_(pattern),
+      options_(options),
+      neighbours_(scan.size()),
+      row_(scan.size()),
+      cells_(pattern.num_rows()) {
   tbb::parallel_for(0, pattern.num_rows(), [&](int r) {
     const BeamRow& row = pattern.rows[r];
-    const std::vector<BeamNeighbours> neighbours = find_neighbours(pattern, r);
-    const Eigen::Vector3f cell = cell_of(pattern, r);
+    cells_[r] = cell_of(pattern, r);
+    const std::vector<BeamNeighbours> found = find_neighbours(pattern, r);
     for (int k = row.begin; k < row.end; ++k) {
-      const int i = pattern.order[k];
-      patches[i] =
-          make_patch({scan, owner, i, row.origin()}, neighbours[k - row.begin], cell, options);
+      neighbours_[pattern.order[k]] = found[k - row.begin];
+      row_[pattern.order[k]] = static_cast<std::uint16_t>(r);
     }
   });
-  return patches;
 }
 
-Patch moved_patch(const Patch& patch, const Eigen::Isometry3f& T_to_from) {
-  Patch moved = patch;
-  moved.origin = T_to_from * patch.origin;
-  moved.axes = T_to_from.linear() * patch.axes;
-  moved.slope = T_to_from.linear() * patch.slope;
-  return moved;
+Patch PatchMaker::make(int point, const std::vector<int>& owner) const {
+  const int row = row_[point];
+  return make_patch({scan_, owner, point, pattern_.rows[row].origin()}, neighbours_[point],
+                    cells_[row], options_);
+}
+
+std::vector<Patch> PatchMaker::make_all(const std::vector<int>& owner) const {
+  std::vector<Patch> patches(scan_.size());
+  tbb::parallel_for(0, pattern_.num_rows(), [&](int r) {
+    for (int k = pattern_.rows[r].begin; k < pattern_.rows[r].end; ++k)
+      patches[pattern_.order[k]] = make(pattern_.order[k], owner);
+  });
+  return patches;
 }
 
 }  // namespace lidar_upsampling

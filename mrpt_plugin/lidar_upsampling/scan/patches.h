@@ -2,6 +2,7 @@
 // Copyright (c) 2026, the lidar_upsampling authors
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "lidar_upsampling/scan/beam_pattern.h"
@@ -25,14 +26,30 @@ struct PatchOptions {
   double max_bend_per_range = 0.02;  ///< added per metre from the sensor
 };
 
-/// @brief A patch for each point of a scan. Its slope leads to the neighbours of the same surface,
-/// so never over a depth edge; where it has none, the patch faces the sensor.
-/// @param owner of each point; neighbours of another owner are another surface.
-[[nodiscard]] std::vector<Patch> make_patches(const LidarScan& scan, const BeamPattern& pattern,
-                                              const std::vector<int>& owner,
-                                              const PatchOptions& options);
+/// @brief Makes the patches of a scan's points. Their slopes lead to the neighbours of the same
+/// surface, so never over a depth edge; where a point has none, its patch faces the sensor.
+class PatchMaker {
+ public:
+  /// Both must outlive the maker.
+  PatchMaker(const LidarScan& scan, const BeamPattern& pattern, const PatchOptions& options);
 
-/// @brief The patch after a rigid motion of its surface; its beam moves along.
-[[nodiscard]] Patch moved_patch(const Patch& patch, const Eigen::Isometry3f& T_to_from);
+  /// @param owner of each point; neighbours of another owner are another surface.
+  [[nodiscard]] Patch make(int point, const std::vector<int>& owner) const;
+
+  /// @brief Of all points.
+  [[nodiscard]] std::vector<Patch> make_all(const std::vector<int>& owner) const;
+
+  /// The points whose patches may lead to this point.
+  [[nodiscard]] const BeamNeighbours& neighbours(int point) const { return neighbours_[point]; }
+  [[nodiscard]] int row(int point) const { return row_[point]; }
+
+ private:
+  const LidarScan& scan_;
+  const BeamPattern& pattern_;
+  PatchOptions options_;
+  std::vector<BeamNeighbours> neighbours_;  // of each point
+  std::vector<std::uint16_t> row_;          // of each point
+  std::vector<Eigen::Vector3f> cells_;      // of each row
+};
 
 }  // namespace lidar_upsampling

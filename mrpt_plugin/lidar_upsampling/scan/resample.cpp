@@ -7,25 +7,37 @@
 #include <algorithm>
 #include <limits>
 #include <map>
+#include <numeric>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
 
 #include "lidar_upsampling/scan/beams.h"
+#include "lidar_upsampling/scan/caster.h"
 #include "lidar_upsampling/scan/patch_index.h"
 
 namespace lidar_upsampling {
+
+/// All that does not change between the images of a key scan.
+struct BeamResampler::Sensor {
+  Sensor(const LidarScan& key, BeamPattern found, const ResampleOptions& options);
+
+  std::vector<int> source;    // of each point below, in the key scan
+  std::vector<int> position;  // the reverse; all below is in the order of beams: memory is walked
+  BeamPattern pattern;        // through, not jumped about in
+  LidarScan scan;
+  std::vector<std::vector<Beam>> beams;        // of each row
+  std::vector<std::vector<BeamLabel>> labels;  // of each beam
+  PatchMaker maker;
+  std::vector<Patch> patches;  // as if nothing moved but the sensor
+  std::vector<PatchOutline> outlines;
+};
+
 namespace {
 
 constexpr int kAbsent = -1;
 constexpr int kStatic = -1;  // as in VirtualScan::track_id
-
-// What moves each point of the key scan: a position in `transforms`, kAbsent for points that are
-// not part of the virtual scan.
-struct PointMotions {
-  std::vector<Eigen::Isometry3f> transforms;
-  std::vector<int> of_point;
-};
 
 void check(const LidarScan& key, const VirtualScan& moved) {
   const std::size_t size = moved.scan.size();
@@ -39,120 +51,99 @@ void check(const LidarScan& key, const VirtualScan& moved) {
                                 std::to_string(key.size()));
 }
 
-PointMotions motions_of(std::size_t num_points, const VirtualScan& moved) {
-  PointMotions motions{{moved.T_lidar_t_lidar_k.cast<float>()},
-                       std::vector<int>(num_points, kAbsent)};
+template <typename T>
+std::vector<T> taken(const std::vector<T>& values, const std::vector<int>& indices) {
+  std::vector<T> result;
+  if (values.empty()) return result;
+  result.reserve(indices.size());
+  for (const int i : indices) result.push_back(values[i]);
+  return result;
+}
+
+LidarScan in_order(const LidarScan& key, const std::vector<int>& order) {
+  LidarScan scan;
+  scan.points = taken(key.points, order);
+  scan.intensity = taken(key.intensity, order);
+  scan.ring = taken(key.ring, order);
+  scan.column = taken(key.column, order);
+  scan.time_s = taken(key.time_s, order);
+  scan.num_rings = key.num_rings;
+  scan.num_columns = key.num_columns;
+  return scan;
+}
+
+BeamPattern in_order(BeamPattern pattern, const std::vector<int>& order) {
+  pattern.azimuth = taken(pattern.azimuth, order);
+  std::iota(pattern.order.begin(), pattern.order.end(), 0);
+  return pattern;
+}
+
+std::vector<int> inverse(const std::vector<int>& order) {
+  std::vector<int> result(order.size());
+  for (int k = 0; k < static_cast<int>(order.size()); ++k) result[order[k]] = k;
+  return result;
+}
+
+// The static scene's motion comes first.
+// @param position of each point of the key scan, among the patches.
+PatchMotions motions_of(const std::vector<int>& position, const VirtualScan& moved) {
+  PatchMotions motions;
+  motions.of_patch.assign(position.size(), kAbsent);
+  const auto add = [&](const Pose& T) {
+    motions.forth.emplace_back(T);
+    motions.back.emplace_back(T.inverse());
+  };
+  add(moved.T_lidar_t_lidar_k);
   std::map<int, int> of_track{{kStatic, 0}};
   for (const ObjectMotion& object : moved.objects) {
-    of_track[object.track_id] = static_cast<int>(motions.transforms.size());
-    motions.transforms.push_back(object.T_lidar_t_lidar_k.cast<float>());
+    of_track[object.track_id] = static_cast<int>(motions.forth.size());
+    add(object.T_lidar_t_lidar_k);
   }
+  auto motion = of_track.find(kStatic);
   for (std::size_t k = 0; k < moved.source_index.size(); ++k) {
-    const auto motion = of_track.find(moved.track_id[k]);
+    if (motion->first != moved.track_id[k]) motion = of_track.find(moved.track_id[k]);
     if (motion == of_track.end())
       throw std::invalid_argument("resampling: points of track " +
                                   std::to_string(moved.track_id[k]) + ", but no such object");
-    motions.of_point[moved.source_index[k]] = motion->second;
+    motions.of_patch[position[moved.source_index[k]]] = motion->second;
   }
   return motions;
 }
 
 // How far the static scene or an object moves, whichever moves most; mean over its points.
-double largest_motion(const LidarScan& key, const PointMotions& motions) {
-  std::vector<double> sum(motions.transforms.size(), 0);
-  std::vector<int> count(motions.transforms.size(), 0);
-  for (std::size_t i = 0; i < key.size(); ++i) {
-    const int motion = motions.of_point[i];
+double largest_motion(const std::vector<Eigen::Vector3f>& points, const PatchMotions& motions) {
+  std::vector<float> sum(motions.forth.size(), 0);
+  std::vector<int> count(motions.forth.size(), 0);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const int motion = motions.of_patch[i];
     if (motion == kAbsent) continue;
-    sum[motion] += (motions.transforms[motion] * key.points[i] - key.points[i]).norm();
+    sum[motion] += (motions.forth[motion] * points[i] - points[i]).norm();
     ++count[motion];
   }
-  double largest = 0;
+  float largest = 0;
   for (std::size_t m = 0; m < sum.size(); ++m)
-    if (count[m] > 0) largest = std::max(largest, sum[m] / count[m]);
+    if (count[m] > 0) largest = std::max(largest, sum[m] / static_cast<float>(count[m]));
   return largest;
 }
 
-struct Ray {
-  Eigen::Vector3f origin, direction;
-};
-
-struct Hit {
-  int patch = -1;
-  float range = 0;
-  float offset = 0;  // from the patch's centre, 1: at its edge
-};
-
-Hit hit_of(const Ray& ray, const Patch& patch, int number) {
-  Hit hit{number, 0, 0};
-  const Eigen::Vector3f from = ray.origin - patch.origin;
-  const float range = (1 - patch.slope.dot(from)) / patch.slope.dot(ray.direction);
-  const Eigen::Vector3f seen = patch.axes.transpose() * (from + range * ray.direction);
-  if (!(range > 0) || !(seen.x() > 0)) return hit;  // parallel, or seen from behind
-  const float x = seen.y() / seen.x(), y = seen.z() / seen.x();
-  hit.range = range;
-  hit.offset = std::max(std::abs(x) / (x < 0 ? patch.right : patch.left),
-                        std::abs(y) / (y < 0 ? patch.down : patch.up));
-  return hit;
+// The patches that a mover's outline changes: its own, and those beside it.
+std::vector<int> at_movers(const PatchMaker& maker, const PatchMotions& motions) {
+  std::vector<std::uint8_t> taken(motions.of_patch.size(), 0);
+  std::vector<int> points;
+  const auto take = [&](int i) {
+    if (i < 0 || taken[i] != 0) return;
+    taken[i] = 1;
+    points.push_back(i);
+  };
+  for (int i = 0; i < static_cast<int>(motions.of_patch.size()); ++i) {
+    if (motions.of_patch[i] <= 0) continue;
+    take(i);
+    const BeamNeighbours& around = maker.neighbours(i);
+    for (const auto& side : {around.right, around.left, around.down, around.up})
+      for (const int neighbour : side) take(neighbour);
+  }
+  return points;
 }
-
-// The first surface in the ray's way.
-class Caster {
- public:
-  Caster(const std::vector<Patch>& patches, const PatchIndex& index, const ResampleOptions& options)
-      : patches_(patches), index_(index), options_(options) {}
-
-  // A hit with range > 0, or none (patch -1).
-  Hit cast(const Ray& ray, int row, const Beam& beam) {
-    hits_.clear();
-    index_.visit_cell(row, beam.azimuth, [&](int i) { add(ray, i, 1 + options_.overlap); });
-    if (hits_.empty()) {
-      // Where nothing came back before, nothing is expected but what has moved there.
-      if (beam.point < 0) return {};
-      return nearest_by(ray, row, beam.azimuth);
-    }
-    float range = std::numeric_limits<float>::infinity();
-    for (const Hit& hit : hits_) range = std::min(range, hit.range);
-    return blended(range);
-  }
-
- private:
-  void add(const Ray& ray, int patch, double reach) {
-    const Hit hit = hit_of(ray, patches_[patch], patch);
-    if (hit.range > 0 && hit.offset <= reach) hits_.push_back(hit);
-  }
-
-  // Of the hits on the same surface, the mean; the closest one's point is the source.
-  [[nodiscard]] Hit blended(float range) const {
-    const auto tolerance =
-        static_cast<float>(options_.same_surface_m + options_.same_surface_per_range * range);
-    Hit best{-1, 0, std::numeric_limits<float>::infinity()};
-    float sum = 0, sum_weights = 0;
-    for (const Hit& hit : hits_) {
-      if (hit.range > range + tolerance) continue;
-      const float weight = 1.001F + static_cast<float>(options_.overlap) - hit.offset;
-      sum += weight * hit.range;
-      sum_weights += weight;
-      if (hit.offset < best.offset) best = hit;
-    }
-    best.range = sum / sum_weights;
-    return best;
-  }
-
-  // In the cracks between patches.
-  Hit nearest_by(const Ray& ray, int row, float azimuth) {
-    index_.visit_around(row, azimuth, [&](int i) { add(ray, i, options_.max_gap); });
-    Hit best{-1, 0, std::numeric_limits<float>::infinity()};
-    for (const Hit& hit : hits_)
-      if (hit.offset < best.offset) best = hit;
-    return best;
-  }
-
-  const std::vector<Patch>& patches_;
-  const PatchIndex& index_;
-  const ResampleOptions& options_;
-  std::vector<Hit> hits_;
-};
 
 // What the beams of a row hit; beams that hit nothing are left out.
 struct RowHits {
@@ -161,85 +152,110 @@ struct RowHits {
   std::vector<int> patches;
 };
 
-std::vector<RowHits> cast_all(const LidarScan& key, const BeamPattern& pattern,
-                              const std::vector<Patch>& patches, const PatchIndex& index,
-                              const ResampleOptions& options) {
-  const std::vector<bool> seen = seen_directions(pattern);
-  const bool to_left = columns_go_left(key, pattern);
-  std::vector<RowHits> rows(pattern.rows.size());
-  tbb::parallel_for(0, pattern.num_rows(), [&](int row) {
-    Caster caster(patches, index, options);
-    RowHits& hits = rows[row];
-    const Eigen::Vector3f origin = pattern.rows[row].origin();
-    for (const Beam& beam : find_beams(key, pattern, row, seen)) {
-      const Hit hit = caster.cast({origin, beam.direction}, row, beam);
-      if (hit.patch < 0) continue;
-      hits.points.emplace_back(origin + hit.range * beam.direction);
-      hits.labels.push_back(label_of(beam, key, to_left));
-      hits.patches.push_back(hit.patch);
-    }
-  });
-  return rows;
-}
-
-void move_patches(const PointMotions& motions, std::vector<Patch>& patches) {
-  tbb::parallel_for(std::size_t{0}, patches.size(), [&](std::size_t i) {
-    if (motions.of_point[i] != kAbsent)
-      patches[i] = moved_patch(patches[i], motions.transforms[motions.of_point[i]]);
-  });
+template <typename T, typename ValueOf>
+void take_all(const std::vector<RowHits>& rows, std::vector<T>& values, const ValueOf& value_of) {
+  std::size_t size = 0;
+  for (const RowHits& row : rows) size += row.points.size();
+  values.clear();
+  values.reserve(size);
+  for (const RowHits& row : rows)
+    for (std::size_t k = 0; k < row.points.size(); ++k) values.push_back(value_of(row, k));
 }
 
 // Ring, column and time are the beam's, intensity and object those of the point that was hit.
-void take_hits(const LidarScan& key, const std::vector<RowHits>& rows,
-               const std::vector<int>& track_of_point, VirtualScan& result) {
+// @param source of each patch, in the key scan.
+void take_hits(const LidarScan& key, const std::vector<int>& source,
+               const std::vector<RowHits>& rows, VirtualScan& result) {
+  std::vector<int> track_of_point(source.size(), kStatic);
+  for (std::size_t k = 0; k < result.source_index.size(); ++k)
+    track_of_point[result.source_index[k]] = result.track_id[k];
   LidarScan& scan = result.scan;
-  scan.points.clear();
-  scan.intensity.clear();
-  scan.ring.clear();
-  scan.column.clear();
-  scan.time_s.clear();
-  result.source_index.clear();
-  result.track_id.clear();
-  for (const RowHits& row : rows) {
-    scan.points.insert(scan.points.end(), row.points.begin(), row.points.end());
-    result.source_index.insert(result.source_index.end(), row.patches.begin(), row.patches.end());
-    for (const int i : row.patches) {
-      result.track_id.push_back(track_of_point[i]);
-      if (!key.intensity.empty()) scan.intensity.push_back(key.intensity[i]);
-    }
-    for (const BeamLabel& label : row.labels) {
-      scan.ring.push_back(label.ring);
-      if (!key.column.empty()) scan.column.push_back(label.column);
-      if (!key.time_s.empty()) scan.time_s.push_back(label.time_s);
-    }
-  }
+  take_all(rows, scan.points, [](const RowHits& row, std::size_t k) { return row.points[k]; });
+  take_all(rows, scan.ring, [](const RowHits& row, std::size_t k) { return row.labels[k].ring; });
+  if (!key.column.empty())
+    take_all(rows, scan.column,
+             [](const RowHits& row, std::size_t k) { return row.labels[k].column; });
+  if (!key.time_s.empty())
+    take_all(rows, scan.time_s,
+             [](const RowHits& row, std::size_t k) { return row.labels[k].time_s; });
+  take_all(rows, result.source_index,
+           [&](const RowHits& row, std::size_t k) { return source[row.patches[k]]; });
+  take_all(rows, result.track_id, [&](const RowHits& row, std::size_t k) {
+    return track_of_point[source[row.patches[k]]];
+  });
+  if (!key.intensity.empty())
+    take_all(rows, scan.intensity, [&](const RowHits& row, std::size_t k) {
+      return key.intensity[source[row.patches[k]]];
+    });
 }
 
 }  // namespace
 
-ResampledScan resample_on_beams(const LidarScan& key_scan, VirtualScan moved,
-                                const ResampleOptions& options) {
-  check(key_scan, moved);
-  ResampledScan result{std::move(moved), ResampleStatus::little_motion};
-  const PointMotions motions = motions_of(key_scan.size(), result.scan);
-  if (largest_motion(key_scan, motions) < options.min_motion_m) return result;
-  result.status = ResampleStatus::no_beams;
-  const auto pattern = find_beam_pattern(key_scan);
-  if (!pattern) return result;
+BeamResampler::Sensor::Sensor(const LidarScan& key, BeamPattern found,
+                              const ResampleOptions& options)
+    : source(found.order),
+      position(inverse(source)),
+      pattern(in_order(std::move(found), source)),
+      scan(in_order(key, source)),
+      beams(pattern.num_rows()),
+      labels(pattern.num_rows()),
+      maker(scan, pattern, options.patches),
+      patches(maker.make_all(std::vector<int>(key.size(), 0))),
+      outlines(key.size()) {
+  const std::vector<bool> seen = seen_directions(pattern);
+  const bool to_left = columns_go_left(scan, pattern);
+  const auto overlap = static_cast<float>(1 + options.overlap);
+  tbb::parallel_for(0, pattern.num_rows(), [&](int row) {
+    beams[row] = find_beams(scan, pattern, row, seen);
+    for (const Beam& beam : beams[row]) labels[row].push_back(label_of(beam, scan, to_left));
+    for (int k = pattern.rows[row].begin; k < pattern.rows[row].end; ++k)
+      outlines[k] = outline_of(patches[k], overlap);
+  });
+}
 
-  std::vector<Patch> patches = make_patches(key_scan, *pattern, motions.of_point, options.patches);
-  move_patches(motions, patches);
-  std::vector<std::uint8_t> is_part(key_scan.size(), 0);
-  std::vector<int> track_of_point(key_scan.size(), kStatic);
-  for (std::size_t k = 0; k < result.scan.source_index.size(); ++k) {
-    is_part[result.scan.source_index[k]] = 1;
-    track_of_point[result.scan.source_index[k]] = result.scan.track_id[k];
+BeamResampler::BeamResampler(const LidarScan& key_scan, const ResampleOptions& options)
+    : key_scan_(key_scan), options_(options) {
+  if (auto pattern = find_beam_pattern(key_scan))
+    sensor_ = std::make_unique<const Sensor>(key_scan, std::move(*pattern), options);
+}
+
+BeamResampler::~BeamResampler() = default;
+
+VirtualScan BeamResampler::resample(VirtualScan moved) const {
+  check(key_scan_, moved);
+  moved.resampling = Resampling::no_beams;
+  if (!sensor_) return moved;
+  const PatchMotions motions = motions_of(sensor_->position, moved);
+  moved.resampling = Resampling::little_motion;
+  if (largest_motion(sensor_->scan.points, motions) < options_.min_motion_m) return moved;
+  moved.resampling = Resampling::done;
+
+  PatchSet patches{
+      sensor_->patches, sensor_->outlines, std::vector<int>(key_scan_.size(), -1), {}, {}};
+  for (const int i : at_movers(sensor_->maker, motions)) {
+    patches.replacement[i] = static_cast<int>(patches.new_patches.size());
+    patches.new_patches.push_back(sensor_->maker.make(i, motions.of_patch));
+    patches.new_outlines.push_back(
+        outline_of(patches.new_patches.back(), static_cast<float>(1 + options_.overlap)));
   }
-  const PatchIndex index(*pattern, patches, is_part, 1 + static_cast<float>(options.overlap));
-  take_hits(key_scan, cast_all(key_scan, *pattern, patches, index, options), track_of_point,
-            result.scan);
-  result.status = ResampleStatus::done;
-  return result;
+  const PatchIndex index(sensor_->pattern, patches, motions);
+  const BeamPattern& pattern = sensor_->pattern;
+  std::vector<RowHits> rows(pattern.rows.size());
+  tbb::parallel_for(0, pattern.num_rows(), [&](int row) {
+    Caster caster(patches, motions, index, options_);
+    RowHits& hits = rows[row];
+    const Eigen::Vector3f origin = pattern.rows[row].origin();
+    for (std::size_t k = 0; k < sensor_->beams[row].size(); ++k) {
+      const Beam& beam = sensor_->beams[row][k];
+      const BeamHit hit = caster.cast({origin, beam.direction}, row, beam);
+      if (hit.patch < 0) continue;
+      hits.points.emplace_back(origin + hit.range * beam.direction);
+      hits.labels.push_back(sensor_->labels[row][k]);
+      hits.patches.push_back(hit.patch);
+    }
+  });
+  take_hits(key_scan_, sensor_->source, rows, moved);
+  return moved;
 }
 
 }  // namespace lidar_upsampling

@@ -2,6 +2,8 @@
 // Copyright (c) 2026, the lidar_upsampling authors
 #pragma once
 
+#include <memory>
+
 #include "lidar_upsampling/scan/patches.h"
 #include "lidar_upsampling/types.h"
 
@@ -16,25 +18,28 @@ struct ResampleOptions {
   PatchOptions patches;
 };
 
-enum class ResampleStatus {
-  done,
-  little_motion,  ///< the scan is as it was: it lies on the beams anyway
-  no_beams        ///< the scan is as it was: no rings, or not a spinning LiDAR's
-};
-
-struct ResampledScan {
-  VirtualScan scan;
-  ResampleStatus status = ResampleStatus::done;
-};
-
-/// @brief The virtual scan as the sensor would have measured it: each beam of the key scan ends on
+/// @brief Virtual scans as the sensor would have measured them: each beam of the key scan ends on
 /// the first surface in its way. Every moved point stands for a patch of its surface (see
 /// patches.h), so a moved object hides what is behind it, no surface leads over a depth edge, and
 /// rings lie where they belong. Beams that hit nothing that the key scan has seen give no point;
 /// beams that came back empty then may hit something now. Points are ordered by beam; ring, column
 /// and time are the beam's, intensity, source and object those of the patch that was hit.
-/// @param moved of `key_scan`, by compose_virtual_scan(). @throw std::invalid_argument it is not.
-[[nodiscard]] ResampledScan resample_on_beams(const LidarScan& key_scan, VirtualScan moved,
-                                              const ResampleOptions& options = {});
+class BeamResampler {
+ public:
+  /// Finds the beams and patches of the scan, which must outlive the resampler.
+  explicit BeamResampler(const LidarScan& key_scan, const ResampleOptions& options = {});
+  ~BeamResampler();
+
+  /// @param moved of the key scan, by compose_virtual_scan(). Its `resampling` says what was done.
+  /// @throw std::invalid_argument it was not made from the key scan.
+  [[nodiscard]] VirtualScan resample(VirtualScan moved) const;
+
+ private:
+  struct Sensor;  // the key scan's beams and patches; none if it has none
+
+  const LidarScan& key_scan_;
+  ResampleOptions options_;
+  std::unique_ptr<const Sensor> sensor_;
+};
 
 }  // namespace lidar_upsampling
