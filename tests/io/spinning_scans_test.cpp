@@ -5,49 +5,22 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstring>
 
 #include "lidar_upsampling/io/carriers.h"
+#include "velodyne_packets.h"
 
 namespace lidar_upsampling {
 namespace {
 
 using mrpt::obs::CObservationRotatingScan;
 using mrpt::obs::CObservationVelodyneScan;
-using mrpt::obs::VelodyneCalibration;
 
-constexpr int kNumPackets = 75;
 constexpr double kRadius = 8;
 
-void put(std::uint8_t* at, int value, int num_bytes) {
-  for (int i = 0; i < num_bytes; ++i) at[i] = static_cast<std::uint8_t>(value >> (8 * i));
-}
-
-// A VLP-16 in the middle of a sphere, on packets as the device sends them (two firings per block).
+// A VLP-16 in the middle of a sphere.
 CObservationVelodyneScan sphere() {
-  CObservationVelodyneScan observation;
-  observation.sensorLabel = "VLP";
-  observation.timestamp = Stamp(mrpt::Clock::duration(132000000000000000LL));
-  observation.originalReceivedTimestamp = observation.timestamp;
-  observation.calibration = VelodyneCalibration::LoadDefaultCalibration("VLP16");
-  observation.scan_packets.resize(kNumPackets);
-  for (int packet = 0; packet < kNumPackets; ++packet) {
-    std::uint8_t bytes[CObservationVelodyneScan::PACKET_SIZE] = {};
-    for (int block = 0; block < 12; ++block) {
-      std::uint8_t* const out = bytes + block * 100;
-      put(out, CObservationVelodyneScan::UPPER_BANK, 2);
-      put(out + 2, (packet * 12 + block) * 36000 / (kNumPackets * 12), 2);
-      for (int beam = 0; beam < 32; ++beam) {
-        put(out + 4 + 3 * beam, static_cast<int>(std::lround(kRadius / 0.002)), 2);
-        put(out + 6 + 3 * beam, 51, 1);
-      }
-    }
-    put(bytes + 1200, packet * 1327, 4);
-    bytes[1204] = CObservationVelodyneScan::RETMODE_STRONGEST;
-    bytes[1205] = 0x22;
-    std::memcpy(&observation.scan_packets[static_cast<std::size_t>(packet)], bytes, sizeof bytes);
-  }
-  return observation;
+  return velodyne_packets(Stamp(mrpt::Clock::duration(132000000000000000LL)),
+                          [](double) { return kRadius; });
 }
 
 double elevation_deg(const Eigen::Vector3f& point) {
@@ -121,7 +94,7 @@ TEST(RotatingScan, azimuths_agree_with_those_of_the_packets) {
   for (std::size_t packet = 0; packet < kNumPackets / 8; ++packet) {
     auto* const bytes = reinterpret_cast<std::uint8_t*>(&packets.scan_packets[packet]);
     for (int block = 0; block < 12; ++block) {
-      for (int beam = 0; beam < 32; ++beam) put(bytes + block * 100 + 4 + 3 * beam, 2000, 2);
+      for (int beam = 0; beam < 32; ++beam) put_number(bytes + block * 100 + 4 + 3 * beam, 2000, 2);
     }
   }
   CObservationRotatingScan observation;

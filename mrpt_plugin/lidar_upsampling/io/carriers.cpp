@@ -11,6 +11,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "lidar_upsampling/io/depth_image.h"
 #include "lidar_upsampling/io/images.h"
 #include "lidar_upsampling/io/mrpt_errors.h"
 #include "lidar_upsampling/io/point_cloud.h"
@@ -108,6 +109,29 @@ Carrier resolve(Carrier carrier, const mrpt::obs::CObservation* like) {
 #endif
 }
 
+// The depth camera whose kind of picture the scan is to be; null if there is none.
+const CObservation3DRangeScan* depth_camera(Carrier carrier, const mrpt::obs::CObservation* like) {
+  if (carrier != Carrier::automatic && carrier != Carrier::same) return nullptr;
+  const auto* const depth = dynamic_cast<const CObservation3DRangeScan*>(like);
+  return depth != nullptr && is_depth_image(*depth) ? depth : nullptr;
+}
+
+mrpt::obs::CObservation::Ptr make_observation(const LidarScan& scan, Carrier carrier,
+                                              const mrpt::obs::CObservation* like) {
+  if (const auto* const depth = depth_camera(carrier, like)) {
+    // MRPT's SLAM and mapping programs take no notice of ranges without points.
+    return make_depth_image(scan, *depth, carrier == Carrier::automatic || depth->hasPoints3D);
+  }
+  switch (resolve(carrier, like)) {
+    case Carrier::point_cloud:
+      return make_point_cloud(scan);
+    case Carrier::same:
+      return make_velodyne_scan(scan);
+    default:
+      return make_range_scan_3d(scan);
+  }
+}
+
 template <typename T>
 void check_length(const std::vector<T>& field, const LidarScan& scan, const char* name) {
   if (field.empty() || field.size() == scan.size()) return;
@@ -170,17 +194,7 @@ std::optional<LidarScan> scan_from_observation(mrpt::obs::CObservation& observat
 mrpt::obs::CObservation::Ptr observation_from_scan(const LidarScan& scan, Carrier carrier,
                                                    const mrpt::obs::CObservation* like) {
   check(scan);
-  mrpt::obs::CObservation::Ptr observation;
-  switch (resolve(carrier, like)) {
-    case Carrier::point_cloud:
-      observation = make_point_cloud(scan);
-      break;
-    case Carrier::same:
-      observation = make_velodyne_scan(scan);
-      break;
-    default:
-      observation = make_range_scan_3d(scan);
-  }
+  mrpt::obs::CObservation::Ptr observation = make_observation(scan, carrier, like);
   observation->timestamp = scan.stamp;
   observation->sensorLabel = scan.label;
   observation->setSensorPose(to_mrpt(scan.T_vehicle_lidar));

@@ -13,7 +13,8 @@ namespace lidar_upsampling {
 
 /// The MRPT class that scans travel in. `automatic` is `range_scan_3d` before MRPT 2.11.3 (whose
 /// maps put a CObservationPointCloud at the wrong place) and `point_cloud` from there on; `same` is
-/// the class of the real scans where it can hold points, else `automatic`.
+/// the class of the real scans where it can hold points, else `automatic`. Of a depth camera both
+/// make depth images (depth_image.h), `automatic` with points, which MRPT's maps need.
 enum class Carrier { automatic, range_scan_3d, point_cloud, same };
 
 /// "auto", "3drangescan", "pointcloud", "same". @throw std::invalid_argument with the choices.
@@ -35,7 +36,7 @@ enum class Carrier { automatic, range_scan_3d, point_cloud, same };
 /// @brief A stock observation that holds the scan, embedded, ready for 3D display and mapping.
 /// 3DRangeScan: `points3D`; ring and column in `points3D_idxs_*`; 8-bit intensity in a ring x
 /// column image. PointCloud: CPointsMapXYZI, or XYZ without intensities.
-/// @param like a real scan's observation, read for `Carrier::same`; may be null.
+/// @param like a real scan's observation, read for `automatic` and `same`; may be null.
 [[nodiscard]] mrpt::obs::CObservation::Ptr observation_from_scan(
     const LidarScan& scan, Carrier carrier, const mrpt::obs::CObservation* like = nullptr);
 
