@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the lidar_upsampling authors
-#include <mrpt/obs/CObservationImage.h>
-
 #include "pipeline.h"
 
 namespace lidar_upsampling {
@@ -34,38 +32,6 @@ TEST(DensifiedLog, the_real_observations_stay_byte_for_byte) {
   for (std::size_t i = 0; i < in.size(); ++i) EXPECT_TRUE(real[i].bytes == in[i].bytes) << i;
 }
 
-TEST(DensifiedLog, stock_rawlog_edit_lists_the_virtual_scans) {
-  if (!has_rawlog_edit()) GTEST_SKIP() << "rawlog-edit is not installed";
-  const TestFolder folder;
-  simulate(folder);
-  densify(folder);
-  const ToolResult info = run("rawlog-edit --info -i " + folder / "out.rawlog");
-  EXPECT_EQ(info.status, 0);
-  EXPECT_TRUE(contains(info.text, "LIDAR_VIRTUAL /      8 /")) << info.text;
-  const ToolResult description = run("rawlog-edit --describe -i " + folder / "out.rawlog");
-  EXPECT_EQ(description.status, 0);
-  EXPECT_TRUE(contains(description.text, "LIDAR_VIRTUAL"));
-}
-
-TEST(DensifiedLog, stock_rawlog_edit_removes_the_virtual_scans_and_nothing_else) {
-  if (!has_rawlog_edit()) GTEST_SKIP() << "rawlog-edit is not installed";
-  const TestFolder folder;
-  simulate(folder);
-  densify(folder);
-  expect_done("rawlog-edit --remove-label LIDAR_VIRTUAL -i " + folder / "out.rawlog" + " -o " +
-              folder / "back.rawlog");
-  const auto in = observations_of(folder / "in.rawlog");
-  const auto back = observations_of(folder / "back.rawlog");
-  ASSERT_EQ(back.size(), in.size());
-  for (std::size_t i = 0; i < in.size(); ++i) {
-    EXPECT_EQ(back[i].label(), in[i].label()) << i;
-    EXPECT_EQ(back[i].stamp(), in[i].stamp()) << i;
-    // MRPT writes colour pictures as JPEG.
-    if (dynamic_cast<mrpt::obs::CObservationImage*>(in[i].observation.get()) != nullptr) continue;
-    EXPECT_TRUE(back[i].bytes == in[i].bytes) << i;
-  }
-}
-
 TEST(DensifiedLog, a_log_is_densified_once_and_says_so_the_second_time) {
   const TestFolder folder;
   simulate(folder, "[scenario]\nduration_s = 0.12\n");
@@ -94,10 +60,6 @@ TEST(DensifiedLog, in_sensory_frames_the_virtual_scans_are_beside_their_images) 
   }
   EXPECT_EQ(num_virtual, kVirtualScans);
   EXPECT_LT(errors_to_truth(folder)["static_scene_m"]["mean"], 0.02);
-  if (!has_rawlog_edit()) return;
-  const ToolResult info = run("rawlog-edit --info -i " + folder / "out.rawlog");
-  EXPECT_EQ(info.status, 0);
-  EXPECT_TRUE(contains(info.text, "LIDAR_VIRTUAL /      8 /")) << info.text;
 }
 
 TEST(DensifiedLog, the_report_counts_what_the_log_holds) {

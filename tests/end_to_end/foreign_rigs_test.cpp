@@ -4,10 +4,14 @@
 #include <mrpt/obs/CObservationPointCloud.h>
 
 #include "lidar_upsampling/io/carriers.h"
-#include "pipeline.h"
+#include "lidar_upsampling/io/images.h"
+#include "stock_maps.h"
 
 namespace lidar_upsampling {
 namespace {
+
+/// The key scan's own points, moved, as figures and carriers are checked point by point.
+constexpr const char* kOwnPoints = "--set resample=none ";
 
 /// A log that differs from ours in one respect, and what the default settings make of it.
 struct ForeignRig {
@@ -26,7 +30,7 @@ TEST_P(ForeignRigs, are_densified_with_the_default_settings) {
   const ForeignRig& rig = GetParam();
   const TestFolder folder;
   simulate(folder, rig.changes);
-  densify(folder);
+  densify(folder, kOwnPoints);
   const auto scans = with_label(observations_of(folder / "out.rawlog"), rig.label + "_VIRTUAL");
   EXPECT_GE(scans.size(), 3U);
   for (const Logged& scan : scans)
@@ -74,7 +78,7 @@ TEST_P(Carriers, virtual_scans_travel_as_they_are_told_to) {
   const CarrierCase& carrier = GetParam();
   const TestFolder folder;
   simulate(folder, "[scenario]\nduration_s = 0.12\n[log]\ncarrier = " + carrier.input + "\n");
-  densify(folder, "--set carrier=" + carrier.setting);
+  densify(folder, kOwnPoints + std::string("--set carrier=") + carrier.setting);
   const auto out = observations_of(folder / "out.rawlog");
   const auto scans = with_label(out, "LIDAR_VIRTUAL");
   ASSERT_EQ(scans.size(), 2U);
@@ -114,6 +118,67 @@ TEST(Carriers, the_automatic_one_is_the_same_for_any_input) {
   }
   EXPECT_EQ(classes[0], classes[1]);
 }
+
+using mrpt::obs::CObservation3DRangeScan;
+
+const CObservation3DRangeScan& depth_image(const Logged& logged) {
+  return dynamic_cast<const CObservation3DRangeScan&>(*logged.observation);
+}
+
+/// Pixels of a virtual depth image against the one that the camera would have taken.
+struct DepthAgreement {
+  int num_true = 0;  ///< returns
+  int num_both = 0, num_close = 0;
+};
+
+DepthAgreement agreement(const CObservation3DRangeScan& made,
+                         const CObservation3DRangeScan& truth) {
+  DepthAgreement result;
+  for (int row = 0; row < truth.rangeImage.rows(); ++row) {
+    for (int column = 0; column < truth.rangeImage.cols(); ++column) {
+      const int expected = truth.rangeImage(row, column), depth = made.rangeImage(row, column);
+      result.num_true += expected != 0;
+      if (expected == 0 || depth == 0) continue;
+      ++result.num_both;
+      result.num_close += std::abs(depth - expected) < 0.02 * expected;
+    }
+  }
+  return result;
+}
+
+class DepthCameras : public testing::TestWithParam<std::string> {};
+
+TEST_P(DepthCameras, get_the_depth_images_they_would_have_taken) {
+  const TestFolder folder;
+  simulate(folder, "[ego]\nspeed_mps = 4\n[vehicle.lead]\nx_m = 9\nspeed_mps = 1\n", kDepthCamera);
+  densify(folder, kOwnPoints + std::string("--set carrier=") + GetParam());
+  const auto out = observations_of(folder / "out.rawlog");
+  const CObservation3DRangeScan& real = depth_image(with_label(out, "DEPTH").front());
+  const auto truths = with_label(observations_of(folder / "truth.rawlog"), "DEPTH");
+  const auto scans = with_label(out, "DEPTH_VIRTUAL");
+  ASSERT_EQ(scans.size(), 8U);
+  for (const Logged& scan : scans) {
+    const CObservation3DRangeScan& made = depth_image(scan);
+    EXPECT_EQ(made.cameraParams.intrinsicParams, real.cameraParams.intrinsicParams);
+    EXPECT_EQ(made.rangeUnits, real.rangeUnits);
+    EXPECT_TRUE(from_mrpt(made.sensorPose).isApprox(from_mrpt(real.sensorPose), 1e-9));
+    EXPECT_EQ(made.hasPoints3D, GetParam() == "auto");  // for maps
+    ASSERT_TRUE(made.hasRangeImage);
+    ASSERT_EQ(made.rangeImage.rows(), real.rangeImage.rows());
+    ASSERT_EQ(made.rangeImage.cols(), real.rangeImage.cols());
+    const auto truth = std::find_if(truths.begin(), truths.end(), [&](const Logged& logged) {
+      return logged.stamp() == scan.stamp();
+    });
+    ASSERT_NE(truth, truths.end());
+    const DepthAgreement found = agreement(made, depth_image(*truth));
+    EXPECT_GT(found.num_true, 5000);
+    EXPECT_GT(found.num_both, 0.9 * found.num_true);
+    EXPECT_GT(found.num_close, 0.93 * found.num_both);  // a copy: 0.66 to 0.91
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Carriers, DepthCameras, testing::Values("auto", "same"),
+                         [](const auto& test) { return test.param; });
 
 }  // namespace
 }  // namespace lidar_upsampling

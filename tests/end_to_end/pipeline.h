@@ -19,6 +19,13 @@
 
 namespace lidar_upsampling {
 
+/// A small rig's LiDAR.
+inline constexpr const char* kSmallLidar = R"(
+[lidar]
+rings = 32
+columns = 600
+)";
+
 /// A street seen by a small rig: a car ahead that drives off, an oncoming one, parked ones.
 inline constexpr const char* kSmallStreet = R"(
 [scenario]
@@ -27,9 +34,6 @@ seed = 3
 [ego]
 y_m = -5.1
 speed_mps = 8
-[lidar]
-rings = 32
-columns = 600
 [camera.CAM0]
 width = 414
 height = 125
@@ -54,8 +58,10 @@ inline void expect_done(const std::string& command) {
 
 /// Makes in.rawlog, in_*.csv and truth.rawlog in the folder.
 /// @param changes further INI text; sections may be given again.
-inline void simulate(const TestFolder& folder, const std::string& changes = {}) {
-  std::ofstream(folder / "street.ini") << kSmallStreet << changes;
+/// @param lidar its section.
+inline void simulate(const TestFolder& folder, const std::string& changes = {},
+                     const std::string& lidar = kSmallLidar) {
+  std::ofstream(folder / "street.ini") << kSmallStreet << lidar << changes;
   expect_done(std::string(RAWLOG_SIMULATE) + " --scenario " + folder / "street.ini" + " --output " +
               folder / "in.rawlog" + " --truth " + folder / "truth.rawlog");
 }

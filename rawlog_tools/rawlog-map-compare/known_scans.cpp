@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the lidar_upsampling authors
+#include "known_scans.h"
+
+#include <mrpt/obs/CSensoryFrame.h>
+
+#include <optional>
+#include <stdexcept>
+
+#include "lidar_upsampling/io/carriers.h"
+#include "lidar_upsampling/io/log_index.h"
+#include "lidar_upsampling/io/rawlog_stream.h"
+#include "lidar_upsampling/registration/scan_registration.h"
+#include "lidar_upsampling/stamp_text.h"
+
+namespace lidar_upsampling::maps {
+namespace {
+
+// Scans of 5 Hz are joined; past the ends, a picture's distance from its scan.
+constexpr InterpolationLimits kLimits{0.6, 0.1};
+
+Trajectory joined(const std::vector<PoseSample>& samples) {
+  Trajectory trajectory(kLimits);
+  for (const PoseSample& sample : samples) trajectory.add(sample);
+  return trajectory;
+}
+
+Trajectory registered(const std::string& path) {
+  Trajectory trajectory(kLimits);
+  std::optional<LidarScan> previous;
+  Pose T_world_lidar = Pose::Identity(), step = Pose::Identity();
+  for_each_scan(path, [&](const LidarScan& scan) {
+    if (is_virtual(scan.label)) return;
+    if (previous) {
+      const auto found = register_scans(scan.points, previous->points, step);
+      if (!found)
+        throw std::runtime_error(path + ": has no poses, and the scan at " + to_text(scan.stamp) +
+                                 " cannot be registered to the one before");
+      step = found->T_target_source;
+      T_world_lidar = T_world_lidar * step;
+    }
+    trajectory.add({scan.stamp, T_world_lidar * scan.T_vehicle_lidar.inverse()});
+    previous = scan;
+  });
+  if (trajectory.size() < 2)
+    throw std::runtime_error(path + ": has neither poses nor two real scans: no way to map along");
+  return trajectory;
+}
+
+}  // namespace
+
+bool is_virtual(const std::string& label) {
+  const std::string ending = "_VIRTUAL";
+  return label.size() > ending.size() &&
+         label.compare(label.size() - ending.size(), ending.size(), ending) == 0;
+}
+
+void for_each_scan(const std::string& path, const std::function<void(const LidarScan&)>& use) {
+  const auto use_scan = [&](mrpt::obs::CObservation& observation) {
+    if (!is_lidar_scan(observation)) return;
+    if (const auto scan = scan_from_observation(observation)) use(*scan);
+  };
+  RawlogReader reader(path);
+  while (const auto entry = reader.next()) {
+    if (auto* const frame = dynamic_cast<mrpt::obs::CSensoryFrame*>(entry->object.get())) {
+      for (const auto& observation : *frame) use_scan(*observation);
+    } else if (auto* const one = dynamic_cast<mrpt::obs::CObservation*>(entry->object.get())) {
+      use_scan(*one);
+    }
+  }
+}
+
+Trajectory trajectory_of(const std::string& path) {
+  const LogIndex index = index_log(path);
+  if (index.corruption) throw std::runtime_error(*index.corruption);
+  if (index.poses.size() >= 2) return joined(index.poses);
+  if (index.odometry.size() >= 2) return joined(index.odometry);
+  return registered(path);
+}
+
+}  // namespace lidar_upsampling::maps

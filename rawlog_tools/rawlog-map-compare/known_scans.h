@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the lidar_upsampling authors
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "lidar_upsampling/ego/trajectory.h"
+#include "lidar_upsampling/types.h"
+
+namespace lidar_upsampling::maps {
+
+/// Whether the label ends as those of virtual scans do.
+[[nodiscard]] bool is_virtual(const std::string& label);
+
+/// @brief Hands over every scan of a log, real and virtual, in its order.
+/// @throw std::runtime_error the log cannot be read to its end.
+void for_each_scan(const std::string& path, const std::function<void(const LidarScan&)>& use);
+
+/// @brief The vehicle's way, from the log's poses or odometry; without them, each real scan
+/// registered to the one before.
+/// @throw std::runtime_error fewer than two poses, or two scans that cannot be registered.
+[[nodiscard]] Trajectory trajectory_of(const std::string& path);
+
+}  // namespace lidar_upsampling::maps
