@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the lidar_upsampling authors
+#include <mrpt/obs/CObservation3DScene.h>
+
+#include <map>
+
+#include "end_to_end/stock_maps.h"
+#include "lidar_upsampling/io/carriers.h"
+#include "screen.h"
+
+namespace lidar_upsampling {
+namespace {
+
+/// The lower right of RawLogViewer's window, where the chosen entry is drawn.
+cv::Mat view_of(const cv::Mat& screen) {
+  return screen(cv::Range(screen.rows / 2, screen.rows * 3 / 4),
+                cv::Range(screen.cols * 2 / 5, screen.cols));
+}
+
+struct Looks {
+  std::size_t num_colors = 0;
+  int num_drawn = 0;     ///< pixels that are not of the most frequent colour
+  int num_colorful = 0;  ///< of them, those that are far from gray
+};
+
+Looks looks_of(const cv::Mat& picture) {
+  const auto key = [](const cv::Vec3b& bgr) { return bgr[0] << 16 | bgr[1] << 8 | bgr[2]; };
+  std::map<int, int> count;
+  Looks looks;
+  for (auto pixel = picture.begin<cv::Vec3b>(); pixel != picture.end<cv::Vec3b>(); ++pixel) {
+    const auto [low, high] = std::minmax({(*pixel)[0], (*pixel)[1], (*pixel)[2]});
+    if (high - low > 80) ++looks.num_colorful;
+    ++count[key(*pixel)];
+  }
+  int most = 0;
+  for (const auto& [color, n] : count) most = std::max(most, n);
+  looks.num_colors = count.size();
+  looks.num_drawn = static_cast<int>(picture.total()) - most;
+  return looks;
+}
+
+// What stands for a view that is not blank; the grid and the axes are drawn in any case.
+constexpr int kFewestDrawn = 5000;
+constexpr int kFewestColorful = 400;
+
+int num_different(const cv::Mat& a, const cv::Mat& b) {
+  int count = 0;
+  for (int y = 0; y < a.rows; ++y) {
+    for (int x = 0; x < a.cols; ++x) count += a.at<cv::Vec3b>(y, x) != b.at<cv::Vec3b>(y, x);
+  }
+  return count;
+}
+
+/// The number of the log's first entry that is such a one.
+template <typename Wanted>
+std::string entry(const TestFolder& folder, const Wanted& wanted) {
+  int number = 0;
+  for (const RawlogEntry& entry : read_log(folder / "out.rawlog")) {
+    const auto* const seen = dynamic_cast<const mrpt::obs::CObservation*>(entry.object.get());
+    if (seen != nullptr && wanted(*seen)) return std::to_string(number);
+    ++number;
+  }
+  ADD_FAILURE() << "no such entry in the log";
+  return "0";
+}
+
+bool is_virtual(const mrpt::obs::CObservation& seen) {
+  return contains(seen.sensorLabel, "_VIRTUAL");
+}
+
+bool is_scene(const mrpt::obs::CObservation& seen) {
+  return dynamic_cast<const mrpt::obs::CObservation3DScene*>(&seen) != nullptr;
+}
+
+class RawLogViewer : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (const std::string missing = Screen::missing("RawLogViewer"); !missing.empty()) {
+      GTEST_SKIP() << missing;
+    }
+  }
+
+  void make_log(const std::string& lidar, const std::string& settings) {
+    simulate(folder_, "[scenario]\nduration_s = 0.2\n", lidar);
+    densify(folder_, "--set annotate=1 " + settings);
+  }
+
+  [[nodiscard]] cv::Mat without_log() const {
+    return Screen(folder_ / "without", "RawLogViewer").picture();
+  }
+
+  TestFolder folder_;
+};
+
+TEST_F(RawLogViewer, a_scan_without_points_is_a_blank_view) {
+  LidarScan nothing;
+  nothing.label = "LIDAR_VIRTUAL";
+  nothing.stamp = Stamp(mrpt::Clock::duration(132000000000000000LL));
+  for (const Carrier carrier : {Carrier::range_scan_3d, Carrier::point_cloud}) {
+    const std::string name = to_string(carrier);
+    RawlogWriter writer(folder_ / name + ".rawlog", false);
+    writer.write(*observation_from_scan(nothing, carrier));
+    writer.commit();
+    const Screen screen(folder_ / name, "RawLogViewer " + folder_ / name + ".rawlog");
+    screen.act("row", "0");
+    const Looks looks = looks_of(view_of(screen.picture()));
+    EXPECT_LT(looks.num_drawn, kFewestDrawn);
+    EXPECT_LT(looks.num_colorful, kFewestColorful);
+  }
+}
+
+struct Shown {
+  std::string name, lidar, settings;
+  bool colors = true;  ///< MRPT colours the points
+};
+
+void PrintTo(const Shown& shown, std::ostream* out) { *out << shown.name; }
+
+class ShownScans : public RawLogViewer, public testing::WithParamInterface<Shown> {};
+
+TEST_P(ShownScans, and_their_objects_are_seen_in_3d) {
+  make_log(GetParam().lidar, GetParam().settings);
+  ASSERT_FALSE(HasFailure());
+  const cv::Mat empty = without_log();
+  const Screen screen(folder_ / "with", "RawLogViewer " + folder_ / "out.rawlog");
+
+  screen.act("row", entry(folder_, is_virtual));
+  const cv::Mat scan = screen.picture();
+  EXPECT_GT(num_different(scan, empty), 100000);
+  const Looks points = looks_of(view_of(scan));
+  EXPECT_GT(points.num_drawn, kFewestDrawn);
+  EXPECT_GT(points.num_colors, 50U);
+  if (GetParam().colors) {
+    EXPECT_GT(points.num_colorful, kFewestDrawn);
+  }
+
+  screen.act("row", entry(folder_, is_scene));
+  const cv::Mat scene = screen.picture();
+  EXPECT_GT(num_different(view_of(scene), view_of(scan)), 1000);
+  const Looks boxes = looks_of(view_of(scene));
+  EXPECT_GT(boxes.num_drawn, kFewestDrawn);
+  EXPECT_GT(boxes.num_colorful, kFewestColorful);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    RawLogViewer, ShownScans,
+    testing::Values(Shown{"range_scans", kSmallLidar, "--set carrier=3drangescan"},
+                    Shown{"point_clouds", kSmallLidar, "--set carrier=pointcloud", false},
+                    Shown{"depth_images", kDepthCamera, "--set carrier=same"}),
+    [](const auto& test) { return test.param.name; });
+
+}  // namespace
+}  // namespace lidar_upsampling
