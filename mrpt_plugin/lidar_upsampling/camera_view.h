@@ -34,6 +34,7 @@ struct Candidate {
   Eigen::Vector3d centroid = Eigen::Vector3d::Zero();  ///< lidar frame at k
   double time_s = 0;                 ///< of its points' own measurement, from the key scan's stamp
   std::optional<KnownMotion> known;  ///< measured before the key scan's first image
+  std::optional<KnownMotion> seen;   ///< on the last image since the key scan that told it
   std::optional<MotionToNext> to_next;  ///< where the next scan is known and shows it
   bool to_next_is_guided = false;       ///< whether a picture led there
   Twist rate =

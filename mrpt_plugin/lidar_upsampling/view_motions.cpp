@@ -49,16 +49,38 @@ struct Question {
   ObjectMotion motion;
 };
 
+// The query with what is known of the object's motion.
+MotionQuery knowing(MotionQuery query, const std::optional<KnownMotion>& known,
+                    const Candidate& candidate, const CameraView& view, const LidarScan& key_scan,
+                    const ObjectMotionOptions& options) {
+  query.known_evidence = known ? evidence_of_motion(*known) : 0;
+  query.prior =
+      expect_motion(known, shifted(key_scan.stamp, candidate.time_s),
+                    view.R_rest_lidar_k.transpose(), candidate.centroid, query.dt, options.prior);
+  return query;
+}
+
 Question question_about(const CameraView& view, std::size_t i, MotionQuery query,
                         const LidarScan& key_scan, const ObjectMotionOptions& options) {
   const Candidate& candidate = view.candidates[i];
   query.centroid_lidar_k = candidate.centroid;
   query.dt = since_measured(query.dt, candidate);
-  if (candidate.known) query.known_evidence = evidence_of_motion(*candidate.known);
-  query.prior =
-      expect_motion(candidate.known, shifted(key_scan.stamp, candidate.time_s),
-                    view.R_rest_lidar_k.transpose(), candidate.centroid, query.dt, options.prior);
-  return {query, correspondences_of(view.points, static_cast<int>(i)), {}};
+  return {knowing(query, candidate.known, candidate, view, key_scan, options),
+          correspondences_of(view.points, static_cast<int>(i)),
+          {}};
+}
+
+// Where neither this picture nor a motion between scans says anything, an earlier picture since the
+// key scan may: where to look again, and else how to move on. It does not weigh in otherwise, as
+// both pictures' tracks share their errors: they begin at the same points.
+void fall_back_on_earlier_images(const CameraView& view, std::size_t i, Question& question,
+                                 const LidarScan& key_scan, const ObjectMotionOptions& options) {
+  const Candidate& candidate = view.candidates[i];
+  const bool is_answered =
+      question.motion.num_inliers > 0 || question.motion.status == MotionStatus::predicted;
+  if (is_answered || !candidate.seen) return;
+  question.query = knowing(question.query, candidate.seen, candidate, view, key_scan, options);
+  question.motion = estimate_object_motion(question.pairs, question.query, options);
 }
 
 // Registration on the next scan starts where the picture leads; what it finds must not contradict
@@ -79,14 +101,14 @@ void use_next_scan(Candidate& candidate, Question& question, const LidarScan& ke
     candidate.to_next_is_guided = seen_moving;
   }
   if (!candidate.to_next) return;
-  MotionQuery knowing = query;
-  knowing.known_evidence = evidence_of_motion(*candidate.to_next);
-  knowing.prior = expect_on_the_way(*candidate.to_next, query.dt, options.prior);
-  ObjectMotion known = estimate_object_motion(question.pairs, knowing, options);
+  MotionQuery on_the_way = query;
+  on_the_way.known_evidence = evidence_of_motion(*candidate.to_next);
+  on_the_way.prior = expect_on_the_way(*candidate.to_next, query.dt, options.prior);
+  ObjectMotion known = estimate_object_motion(question.pairs, on_the_way, options);
   constexpr double kContradicted = 0.5;
   if (known.num_inliers < kContradicted * question.motion.num_inliers) return;
   question.motion = std::move(known);
-  question.query = knowing;
+  question.query = on_the_way;
 }
 
 // Where moving objects are at the image.
@@ -140,9 +162,23 @@ void drop_covered_points(const CameraView& view, const LidarScan& key_scan,
   });
 }
 
+// What an image told is known to the next one: with it, the last one knows all since the key scan.
+KnownMotion known_from(const ObjectMotion& motion, const MotionQuery& query, const CameraView& view,
+                       Stamp measured_k) {
+  KnownMotion known;
+  known.stamp = shifted(measured_k, 0.5 * query.dt);
+  known.velocity_at_rest = view.R_rest_lidar_k * motion.velocity_lidar_k;
+  known.yaw_rate = motion.yaw_rate;
+  const Eigen::Matrix3d R = view.R_rest_lidar_k * query.T_lidar_t_lidar_k.linear().transpose();
+  known.velocity_covariance =
+      (R * motion.position_covariance * R.transpose()).topLeftCorner<2, 2>() /
+      (query.dt * query.dt);
+  return known;
+}
+
 // The answer with all that the virtual scan and the next picture want to know.
 ObjectMotion completed(Question question, Candidate& candidate, const CameraView& view,
-                       const LidarScan& key_scan) {
+                       const LidarScan& key_scan, bool keep_known) {
   ObjectMotion motion = std::move(question.motion);
   const MotionQuery& query = question.query;
   if (motion.status == MotionStatus::moving) {
@@ -150,6 +186,8 @@ ObjectMotion completed(Question question, Candidate& candidate, const CameraView
                                            view.anchor_dt - candidate.time_s, query.dt);
     set_motion(motion, query.T_lidar_t_lidar_k * T_mov, query);
     candidate.rate = log_se3(T_mov) / query.dt;
+    if (keep_known)
+      candidate.seen = known_from(motion, query, view, shifted(key_scan.stamp, candidate.time_s));
   }
   motion.track_id = candidate.track_id;
   motion.class_name = candidate.detection.class_name;
@@ -177,12 +215,14 @@ std::vector<ObjectMotion> estimate_motions(CameraView& view, const Picture& pict
     Question& question = questions[i];
     question = question_about(view, i, query, key_scan, options);
     question.motion = estimate_object_motion(question.pairs, question.query, options);
+    fall_back_on_earlier_images(view, i, question, key_scan, options);
     if (next != nullptr) use_next_scan(view.candidates[i], question, key_scan, *next, options);
   });
   if (options.drop_covered) drop_covered_points(view, key_scan, options, questions);
   std::vector<ObjectMotion> motions(questions.size());
   tbb::parallel_for(std::size_t{0}, questions.size(), [&](std::size_t i) {
-    motions[i] = completed(std::move(questions[i]), view.candidates[i], view, key_scan);
+    motions[i] = completed(std::move(questions[i]), view.candidates[i], view, key_scan,
+                           options.prior.from_images);
   });
   return motions;
 }

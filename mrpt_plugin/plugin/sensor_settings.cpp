@@ -110,6 +110,7 @@ SensorSettings load_sensor_settings(const CConfigFileBase& source, const std::st
   load_own(source, section, settings);
   settings.into_frames = source.read_bool("global", "use_sensoryframes", false);
   const CConfigFileMemory view = sections_of_the_method(source, section);
+  settings.config.resample = "none";  // unless asked for: it takes more time than a live system has
   settings.config.loadFromConfigFile(view, section);
   settings.rig = load_rig_overrides(view);
   if (settings.config.mode != "causal")

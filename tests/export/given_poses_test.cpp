@@ -23,15 +23,16 @@ class GivenPoses : public ::testing::Test {
     return read_pose_file(options, {}, Pose::Identity());
   }
   [[nodiscard]] std::vector<LidarScan> densified(const std::string& options) const {
-    expect_done(densify_command(path("in.rawlog"), path("out.rawlog"), "--overwrite " + options));
+    expect_done(densify_command(path("in.rawlog"), path("out.rawlog"),
+                                "--overwrite --set resample=none " + options));
     std::vector<LidarScan> scans;
     for (const Logged& logged : with_label(observations_of(path("out.rawlog")), "LIDAR_VIRTUAL"))
       scans.push_back(*scan_from_observation(*logged.observation));
     return scans;
   }
   [[nodiscard]] std::string error(const std::string& options) const {
-    const ToolResult result =
-        run(densify_command(path("in.rawlog"), path("out.rawlog"), "--overwrite " + options));
+    const ToolResult result = run(densify_command(path("in.rawlog"), path("out.rawlog"),
+                                                  "--overwrite --set resample=none " + options));
     EXPECT_EQ(result.status, 1) << result.text;
     return result.text;
   }

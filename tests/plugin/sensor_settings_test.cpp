@@ -57,6 +57,11 @@ void expect_refused(const std::string& more_lines, const std::vector<std::string
     EXPECT_NE(message.find(word), std::string::npos) << word << " is not in: " << message;
 }
 
+TEST(SensorSettings, points_are_only_moved_unless_more_is_asked_for) {
+  EXPECT_EQ(load("").config.resample, "none");
+  EXPECT_EQ(load("[UPSAMPLED]\nresample = beam\n").config.resample, "beam");
+}
+
 TEST(SensorSettings, the_sensors_and_the_methods_settings_are_read_from_one_file) {
   const SensorSettings settings = load("");
   EXPECT_EQ(settings.rawlog, "a b.rawlog");

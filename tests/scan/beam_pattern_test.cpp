@@ -66,6 +66,20 @@ TEST(BeamPattern, is_none_of_a_scan_without_rings_or_of_a_depth_picture) {
   EXPECT_FALSE(find_beam_pattern({}));
 }
 
+TEST(BeamPattern, the_rows_of_a_narrow_depth_camera_are_no_beams) {
+  // So narrow that its rows hardly differ from cones.
+  constexpr float kFocal = 400;
+  LidarScan picture;
+  for (int row = 0; row < 60; ++row)
+    for (int column = 0; column < 160; ++column) {
+      const float depth = column < 70 ? 3.F : 8.F;
+      picture.points.emplace_back(depth, depth * static_cast<float>(80 - column) / kFocal,
+                                  depth * static_cast<float>(row - 50) / kFocal);
+      picture.ring.push_back(static_cast<std::uint16_t>(row));
+    }
+  EXPECT_FALSE(find_beam_pattern(picture));
+}
+
 TEST(BeamPattern, neighbours_go_round_and_not_across_gaps) {
   LabelledScan key = scan_of({}, {});
   const auto pattern = find_beam_pattern(key.scan);

@@ -24,7 +24,7 @@ const std::vector<Component>& components() {
       {"object detector and tracker", "#0072b2", 27, {"ground and clusters", "candidates"}},
       {"points and KLT", "#56b4e9", 19, {"image pyramid", "point tracking"}},
       {"pose", "#e69f00", 16, {"ego-motion", "object motion", "scan registration"}},
-      {"composition", "#009e73", 0, {"composition"}}};
+      {"composition", "#009e73", 0, {"composition", "beams", "resampling"}}};
   return kComponents;
 }
 

@@ -108,6 +108,25 @@ void fit_laser(const LidarScan& scan, Ring& ring) {
   ring.row.tan_elevation = static_cast<float>(tangent);
 }
 
+// Whether rings lie on planes through the y axis rather than cones: rows of a depth camera's
+// picture.
+bool are_picture_rows(const LidarScan& scan, const std::vector<Ring>& rings) {
+  std::vector<float> as_plane, as_cone;
+  for (const Ring& ring : rings) {
+    std::vector<float> slopes;
+    for (const int i : ring.points) {
+      const Eigen::Vector3f& p = scan.points[i];
+      if (p.x() <= 0) return false;
+      slopes.push_back(p.z() / p.x());
+    }
+    const float slope = median(slopes);
+    for (float& value : slopes) value = std::abs(value - slope);
+    as_plane.push_back(median(std::move(slopes)));
+    as_cone.push_back(ring.scatter);
+  }
+  return median(std::move(as_plane)) < 0.5F * median(std::move(as_cone));
+}
+
 // Walks along a row beside a walk along another one, both in order of azimuth.
 class NearestInRow {
  public:
@@ -180,6 +199,7 @@ std::optional<BeamPattern> find_beam_pattern(const LidarScan& scan) {
     sort_by_azimuth(scan, rings[i]);
     fit_laser(scan, rings[i]);
   });
+  if (are_picture_rows(scan, rings)) return {};
   BeamPattern pattern = joined(std::move(rings), scan.size());
   if (pattern.azimuth_pitch <= 0 || pattern.scatter > kMaxScatter) return {};
   return pattern;

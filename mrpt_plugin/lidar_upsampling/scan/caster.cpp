@@ -14,14 +14,16 @@ constexpr float kNever = std::numeric_limits<float>::infinity();
 Ray moved(const Ray& ray, const Motion& T) { return {T * ray.origin, turned(T.R, ray.direction)}; }
 
 BeamHit hit_of(const Ray& ray, const Patch& patch, int number) {
-  BeamHit hit{number, 0, 0};
+  BeamHit hit{number, 0, 0, 1};
   const Eigen::Vector3f from = ray.origin - patch.origin;
-  const float range = (1 - patch.slope.dot(from)) / patch.slope.dot(ray.direction);
+  const float approach = patch.slope.dot(ray.direction);
+  const float range = (1 - patch.slope.dot(from)) / approach;
   const Eigen::Vector3f to_hit = from + range * ray.direction;
   const float ahead = patch.axes.col(0).dot(to_hit);
   if (!(range > 0) || !(ahead > 0)) return hit;  // parallel, or seen from behind
   const float x = patch.axes.col(1).dot(to_hit), y = patch.axes.col(2).dot(to_hit);
   hit.range = range;
+  hit.approach = approach;
   hit.offset = std::max(std::abs(x) / (x < 0 ? patch.right : patch.left),
                         std::abs(y) / (y < 0 ? patch.down : patch.up)) /
                ahead;
@@ -44,9 +46,9 @@ BeamHit Caster::cast(const Ray& ray, int row, const Beam& beam) {
     if (beam.point < 0) return {};
     return nearest_by(ray, row, beam.azimuth);
   }
-  float range = kNever;
-  for (const BeamHit& hit : hits_) range = std::min(range, hit.range);
-  return blended(range);
+  return blended(
+      *std::min_element(hits_.begin(), hits_.end(),
+                        [](const BeamHit& a, const BeamHit& b) { return a.range < b.range; }));
 }
 
 void Caster::add(const Ray& ray, int patch, float reach) {
@@ -57,13 +59,15 @@ void Caster::add(const Ray& ray, int patch, float reach) {
 }
 
 // Of the hits on the same surface, the mean; the closest one's point is the source.
-BeamHit Caster::blended(float range) const {
-  const auto tolerance =
-      static_cast<float>(options_.same_surface_m + options_.same_surface_per_range * range);
+BeamHit Caster::blended(const BeamHit& first) const {
+  if (hits_.size() == 1) return first;
+  // Across the plane of the first one, so that ground seen at a flat angle counts as one surface.
+  const float tolerance = static_cast<float>(options_.same_surface_m) *
+                          patches_.patch(first.patch).slope.norm() / std::abs(first.approach);
   BeamHit best{-1, 0, kNever};
   float sum = 0, sum_weights = 0;
   for (const BeamHit& hit : hits_) {
-    if (hit.range > range + tolerance) continue;
+    if (hit.range > first.range + tolerance) continue;
     const float weight = 1.001F + static_cast<float>(options_.overlap) - hit.offset;
     sum += weight * hit.range;
     sum_weights += weight;

@@ -16,9 +16,10 @@ struct Ray {
 
 /// Where a ray ends.
 struct BeamHit {
-  int patch = -1;    ///< none: -1
-  float range = 0;   ///< along the ray, metres
-  float offset = 0;  ///< from the patch's centre, 1: at its edge
+  int patch = -1;      ///< none: -1
+  float range = 0;     ///< along the ray, metres
+  float offset = 0;    ///< from the patch's centre, 1: at its edge
+  float approach = 1;  ///< to the patch's plane, per range: slope times direction
 };
 
 /// @brief Finds the first moved patch in a ray's way. All arguments must outlive the caster.
@@ -32,7 +33,7 @@ class Caster {
 
  private:
   void add(const Ray& ray, int patch, float reach);
-  [[nodiscard]] BeamHit blended(float range) const;
+  [[nodiscard]] BeamHit blended(const BeamHit& first) const;
   [[nodiscard]] BeamHit nearest_by(const Ray& ray, int row, float azimuth);
 
   const PatchSet& patches_;

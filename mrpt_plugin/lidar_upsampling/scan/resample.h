@@ -13,8 +13,8 @@ struct ResampleOptions {
   double min_motion_m = 0.03;  ///< nothing is done where nothing has moved as far, on average
   double overlap = 0.1;  ///< of patches, share of their reach: closes the cracks of a moved surface
   double max_gap = 1.5;  ///< a beam between patches takes one this near, in units of its reach
-  double same_surface_m = 0.1;  ///< hits this much behind the first one are averaged with it
-  double same_surface_per_range = 0.03;  ///< added per metre from the sensor
+  double same_surface_m =
+      0.1;  ///< hits this far behind the plane of the first one are averaged with it
   PatchOptions patches;
 };
 
