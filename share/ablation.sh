@@ -14,7 +14,7 @@ ablation_row() {  # <title> <settings>
   echo "$1 ..." >&2
   printf '| %s | `%s` |' "$1" "$2"
   for log in "${ablation_logs[@]}"; do
-    SET=$2 bash share/measure.sh $log --no-paper > "$out/ablation.txt"
+    SET="resample=none $2" bash share/measure.sh $log --no-paper > "$out/ablation.txt"
     printf ' %s / %s |' "$(figure "$out/ablation.txt" "moving objects, position" ours 2)" \
       "$(figure "$out/ablation.txt" "static objects, position" ours 2)"
   done

@@ -31,7 +31,7 @@ case $kind in
 esac
 
 # Points on the sensor's beams are other points than the key scan's. So the objects' motions are measured on the same scans
-# with every point its own, which tells them exactly, and Chamfer on what users get.
+# with every point its own (a depth camera's, too), which tells them exactly, and Chamfer on what users get.
 measured() {  # <ending> <settings ...>
   local dense=$out/$name-$1.rawlog; shift
   "$(tool rawlog-densify)" --config "$config" --input "$thin" --output "$dense" --report "$out/$name-report.json" --overwrite \
@@ -41,7 +41,7 @@ measured() {  # <ending> <settings ...>
 }
 more=("$@")
 measured dense "${settings[@]}" > "$out/$name-on-beams.txt"
-measured moved "${settings[@]}" --set resample=none > "$out/$name-moved.txt"
+measured moved "${settings[@]}" --set resample=none --set carrier=3drangescan > "$out/$name-moved.txt"
 awk -v RS= 'FNR == 1 { file++ }
   { lines = split($0, line, "\n") }
   file == 1 && /^Chamfer/ { chamfer = $0 }
