@@ -40,6 +40,10 @@ measured() {  # <ending> <settings ...>
     --report "$out/$name-report.json" --json "$out/$name.json" "${more[@]}"
 }
 more=("$@")
+if [[ " ${SET:-} " == *" resample=none "* ]]; then
+  measured dense "${settings[@]}"
+  exit
+fi
 measured dense "${settings[@]}" > "$out/$name-on-beams.txt"
 measured moved "${settings[@]}" --set resample=none --set carrier=3drangescan > "$out/$name-moved.txt"
 awk -v RS= 'FNR == 1 { file++ }
