@@ -32,26 +32,29 @@ esac
 
 # Points on the sensor's beams are other points than the key scan's. So the objects' motions are measured on the same scans
 # with every point its own (a depth camera's, too), which tells them exactly, and Chamfer on what users get.
-measured() {  # <ending> <settings ...>
-  local dense=$out/$name-$1.rawlog; shift
+measured() {  # <ending> <rawlog-evaluate's arguments ...> -- <rawlog-densify's arguments ...>
+  local dense=$out/$name-$1.rawlog more=(); shift
+  while [ "$1" != -- ]; do more+=("$1"); shift; done
   "$(tool rawlog-densify)" --config "$config" --input "$thin" --output "$dense" --report "$out/$name-report.json" --overwrite \
-    "$@" > "$out/$name-densify.txt"
+    "${settings[@]}" "${@:2}" > "$out/$name-densify.txt"
   "$(tool rawlog-evaluate)" --reference "$full" --input "$dense" --config "$config" "${judge[@]}" \
     --report "$out/$name-report.json" --json "$out/$name.json" "${more[@]}"
 }
-more=("$@")
 if [[ " ${SET:-} " == *" resample=none "* ]]; then
-  measured dense "${settings[@]}"
+  measured dense "$@" --
   exit
 fi
-measured dense "${settings[@]}" > "$out/$name-on-beams.txt"
-measured moved "${settings[@]}" --set resample=none --set carrier=3drangescan > "$out/$name-moved.txt"
+measured dense "$@" -- > "$out/$name-on-beams.txt"
+measured moved -- --set resample=none --set carrier=3drangescan > "$out/$name-moved.txt"
 awk -v RS= 'FNR == 1 { file++ }
   { lines = split($0, line, "\n") }
-  file == 1 && /^Chamfer/ { chamfer = $0 }
-  file == 1 && /^running time/ { time = $0 }
-  file == 1 { for (i = 1; i <= lines; i++) if (line[i] ~ /beats ours: Chamfer/) beaten = beaten line[i] "\n"; next }
-  /^Chamfer/ { print chamfer "\n"; next }
+  file == 1 {
+    for (i = 1; i <= lines; i++) if (line[i] ~ /beats ours: Chamfer/) beaten = beaten line[i] "\n"
+    if (/^running time/) time = $0
+    else if (!/^([A-Z_]+:|moving|static|points of|scene flow|objects left|a baseline|reported)/) clouds = clouds $0 "\n\n"
+    next
+  }
+  /^Chamfer/ { printf "%s", clouds; next }
   /^running time/ { print time "\n"; next }
   { for (i = 1; i <= lines; i++) if (line[i] !~ /beats ours: Chamfer/) print line[i] }
   /(^|\n)a baseline beats ours/ { printf "%s", beaten; beaten = "" }
