@@ -117,7 +117,7 @@ std::vector<ObjectReference> find_references(const ScanSet& scans, const Truth* 
   if (truth) return objects;
 
   const double dt = seconds_between(scans.key.stamp, scans.reference.stamp);
-  const Surface surface = Surface(without_ground(scans.reference));
+  const Surface surface(without_ground(scans.reference));
   tbb::parallel_for(std::size_t{0}, objects.size(), [&](std::size_t i) {
     register_to_reference(objects[i], scans.key, surface, T_ego, dt, options);
   });

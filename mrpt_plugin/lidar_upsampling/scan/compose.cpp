@@ -2,6 +2,7 @@
 // Copyright (c) 2026, the lidar_upsampling authors
 #include "lidar_upsampling/scan/compose.h"
 
+#include "lidar_upsampling/scan/taken.h"
 #include "lidar_upsampling/vision/projection.h"
 
 namespace lidar_upsampling {
@@ -43,15 +44,6 @@ std::vector<std::uint8_t> seen_by_any(const std::vector<Camera>& cameras,
   return seen;
 }
 
-template <typename T>
-std::vector<T> taken(const std::vector<T>& values, const std::vector<int>& indices) {
-  std::vector<T> result;
-  if (values.empty()) return result;
-  result.reserve(indices.size());
-  for (const int i : indices) result.push_back(values[i]);
-  return result;
-}
-
 }  // namespace
 
 VirtualScan compose_virtual_scan(const LidarScan& key_scan, ScanMotion motion,
@@ -77,12 +69,7 @@ VirtualScan compose_virtual_scan(const LidarScan& key_scan, ScanMotion motion,
   result.scan.label = output_label;
   result.scan.T_vehicle_lidar = key_scan.T_vehicle_lidar;
   result.scan.points = taken(moved, result.source_index);
-  result.scan.intensity = taken(key_scan.intensity, result.source_index);
-  result.scan.ring = taken(key_scan.ring, result.source_index);
-  result.scan.column = taken(key_scan.column, result.source_index);
-  result.scan.time_s = taken(key_scan.time_s, result.source_index);
-  result.scan.num_rings = key_scan.num_rings;
-  result.scan.num_columns = key_scan.num_columns;
+  take_fields(key_scan, result.source_index, result.scan);
   result.key_stamp = key_scan.stamp;
   result.objects = std::move(motion.objects);
   result.T_lidar_t_lidar_k = motion.T_lidar_t_lidar_k;

@@ -41,7 +41,6 @@ class PatchMaker {
 
   /// The points whose patches may lead to this point.
   [[nodiscard]] const BeamNeighbours& neighbours(int point) const { return neighbours_[point]; }
-  [[nodiscard]] int row(int point) const { return row_[point]; }
 
  private:
   const LidarScan& scan_;

@@ -5,10 +5,8 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <limits>
 #include <map>
 #include <numeric>
-#include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -16,6 +14,7 @@
 #include "lidar_upsampling/scan/beams.h"
 #include "lidar_upsampling/scan/caster.h"
 #include "lidar_upsampling/scan/patch_index.h"
+#include "lidar_upsampling/scan/taken.h"
 
 namespace lidar_upsampling {
 
@@ -24,8 +23,9 @@ struct BeamResampler::Sensor {
   Sensor(const LidarScan& key, BeamPattern found, const ResampleOptions& options);
 
   std::vector<int> source;    // of each point below, in the key scan
-  std::vector<int> position;  // the reverse; all below is in the order of beams: memory is walked
-  BeamPattern pattern;        // through, not jumped about in
+  std::vector<int> position;  // the reverse
+  // All below is in the order of beams, so that memory is walked through, not jumped about in.
+  BeamPattern pattern;
   LidarScan scan;
   std::vector<std::vector<Beam>> beams;        // of each row
   std::vector<std::vector<BeamLabel>> labels;  // of each beam
@@ -51,24 +51,10 @@ void check(const LidarScan& key, const VirtualScan& moved) {
                                 std::to_string(key.size()));
 }
 
-template <typename T>
-std::vector<T> taken(const std::vector<T>& values, const std::vector<int>& indices) {
-  std::vector<T> result;
-  if (values.empty()) return result;
-  result.reserve(indices.size());
-  for (const int i : indices) result.push_back(values[i]);
-  return result;
-}
-
 LidarScan in_order(const LidarScan& key, const std::vector<int>& order) {
   LidarScan scan;
   scan.points = taken(key.points, order);
-  scan.intensity = taken(key.intensity, order);
-  scan.ring = taken(key.ring, order);
-  scan.column = taken(key.column, order);
-  scan.time_s = taken(key.time_s, order);
-  scan.num_rings = key.num_rings;
-  scan.num_columns = key.num_columns;
+  take_fields(key, order, scan);
   return scan;
 }
 
@@ -128,11 +114,11 @@ double largest_motion(const std::vector<Eigen::Vector3f>& points, const PatchMot
 
 // The patches that a mover's outline changes: its own, and those beside it.
 std::vector<int> at_movers(const PatchMaker& maker, const PatchMotions& motions) {
-  std::vector<std::uint8_t> taken(motions.of_patch.size(), 0);
+  std::vector<std::uint8_t> is_taken(motions.of_patch.size(), 0);
   std::vector<int> points;
   const auto take = [&](int i) {
-    if (i < 0 || taken[i] != 0) return;
-    taken[i] = 1;
+    if (i < 0 || is_taken[i] != 0) return;
+    is_taken[i] = 1;
     points.push_back(i);
   };
   for (int i = 0; i < static_cast<int>(motions.of_patch.size()); ++i) {
