@@ -51,8 +51,9 @@ double score_of(const Problem& problem, const Pose& T_target_object, int stride 
   double sum = 0;
   int count = 0;
   for (std::size_t i = 0; i < problem.points.size(); i += stride, ++count) {
-    const auto nearest = problem.target.nearest(T * problem.points[i]);
-    sum += std::min<double>(nearest.sq_distance, kScoreCut * kScoreCut);
+    constexpr auto kFarthest = static_cast<float>(kScoreCut * kScoreCut);
+    const auto nearest = problem.target.nearest(T * problem.points[i], kFarthest);
+    sum += std::min(nearest.sq_distance, kFarthest);
   }
   return std::sqrt(sum / count);
 }
@@ -60,9 +61,10 @@ double score_of(const Problem& problem, const Pose& T_target_object, int stride 
 /// Adds one point's match: across the surface with full weight, along it with little.
 void add_match(const Problem& problem, const Eigen::Vector3d& point, const Eigen::Vector3d& pivot,
                double scale, Matrix6d& H, Twist& b) {
-  const auto nearest = problem.target.nearest(point.cast<float>());
   const double reach = problem.options.max_correspondence_m;
-  if (nearest.index < 0 || nearest.sq_distance > reach * reach) {
+  const auto nearest =
+      problem.target.nearest(point.cast<float>(), static_cast<float>(reach * reach));
+  if (nearest.index < 0) {
     return;
   }
   const Eigen::Vector3d error = point - problem.target.points()[nearest.index].cast<double>();
@@ -111,7 +113,8 @@ double residual_of(const Problem& problem, const Pose& T_target_object) {
   return std::sqrt(sum / static_cast<double>(problem.points.size()));
 }
 
-Candidate converge(const Problem& problem, const Pose& guess) {
+/// @param stop a step this short ends the search, m and rad
+Candidate converge(const Problem& problem, const Pose& guess, double stop = 2e-4) {
   Pose T = guess;
   double scale = 4 * problem.options.kernel_m;
   for (int i = 0; i < problem.options.max_iterations; ++i) {
@@ -128,7 +131,7 @@ Candidate converge(const Problem& problem, const Pose& guess) {
     }
     T = renormalized(Eigen::Translation3d(pivot) * exp_se3(step) * Eigen::Translation3d(-pivot) *
                      T);
-    if (scale <= problem.options.kernel_m && step.norm() < 2e-4) {
+    if (scale <= problem.options.kernel_m && step.norm() < stop) {
       break;
     }
     scale = std::max(problem.options.kernel_m, 0.75 * scale);
@@ -179,11 +182,12 @@ struct Ambiguity {
 /// A start that comes back part of the way speaks of a weak pull there, one that stays of none.
 Ambiguity ambiguity_of(const Problem& problem, const Candidate& best) {
   constexpr double kShift = 0.2;
+  constexpr double kStop = 0.01 * kShift;  // finer would tell nothing of who comes back
   constexpr std::array<std::array<double, 2>, 4> kShifts{
       {{kShift, 0}, {-kShift, 0}, {0, kShift}, {0, -kShift}}};
   Ambiguity result;
   for (const auto& shift : kShifts) {
-    const Candidate again = converge(problem, shifted_by(best.T, shift[0], shift[1]));
+    const Candidate again = converge(problem, shifted_by(best.T, shift[0], shift[1]), kStop);
     if (again.score < 1.15 * best.score + 0.005) {
       const Eigen::Vector3d astray = again.T * problem.centroid - best.T * problem.centroid;
       result.spread = std::max(result.spread, astray.norm());
@@ -197,10 +201,10 @@ Ambiguity ambiguity_of(const Problem& problem, const Candidate& best) {
 
 double overlap_of(const Problem& problem, const Pose& T_target_object) {
   const Eigen::Isometry3f T = T_target_object.cast<float>();
-  const double reach = problem.options.overlap_distance_m;
+  const auto reach = static_cast<float>(problem.options.overlap_distance_m);
   const auto covered = std::count_if(
       problem.points.begin(), problem.points.end(), [&](const Eigen::Vector3f& point) {
-        return problem.target.nearest(T * point).sq_distance < reach * reach;
+        return problem.target.nearest(T * point, reach * reach).index >= 0;
       });
   return static_cast<double>(covered) / static_cast<double>(problem.points.size());
 }

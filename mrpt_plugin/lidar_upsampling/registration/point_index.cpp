@@ -37,13 +37,16 @@ PointIndex& PointIndex::operator=(PointIndex&&) noexcept = default;
 
 const std::vector<Eigen::Vector3f>& PointIndex::points() const { return tree_->cloud.points; }
 
-PointIndex::Neighbor PointIndex::nearest(const Eigen::Vector3f& query) const {
+PointIndex::Neighbor PointIndex::nearest(const Eigen::Vector3f& query,
+                                         float max_sq_distance) const {
   std::uint32_t index = 0;
-  Neighbor result;
-  if (tree_->index.knnSearch(query.data(), 1, &index, &result.sq_distance) == 1) {
-    result.index = static_cast<int>(index);
-  }
-  return result;
+  float sq_distance = 0;
+  nanoflann::KNNResultSet<float, std::uint32_t> found(1);
+  found.init(&index, &sq_distance);
+  sq_distance = max_sq_distance;  // what a point has to beat
+  tree_->index.findNeighbors(found, query.data(), {});
+  if (found.size() == 0) return {-1, std::numeric_limits<float>::max()};
+  return {static_cast<int>(index), sq_distance};
 }
 
 void PointIndex::nearest(const Eigen::Vector3f& query, int k,

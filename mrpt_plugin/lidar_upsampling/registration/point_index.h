@@ -2,6 +2,7 @@
 // Copyright (c) 2026, the lidar_upsampling authors
 #pragma once
 
+#include <limits>
 #include <memory>
 #include <vector>
 
@@ -24,7 +25,9 @@ class PointIndex {
 
   [[nodiscard]] const std::vector<Eigen::Vector3f>& points() const;
 
-  [[nodiscard]] Neighbor nearest(const Eigen::Vector3f& query) const;
+  /// @param max_sq_distance farther points are not looked for, which is faster: then there is none.
+  [[nodiscard]] Neighbor nearest(const Eigen::Vector3f& query,
+                                 float max_sq_distance = std::numeric_limits<float>::max()) const;
 
   /// Fills `neighbors` with the k nearest (fewer if there are not so many), nearest first.
   void nearest(const Eigen::Vector3f& query, int k, std::vector<Neighbor>& neighbors) const;

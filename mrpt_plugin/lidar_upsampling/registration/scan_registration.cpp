@@ -55,8 +55,8 @@ std::vector<Eigen::Vector3f> every_nth(std::vector<Eigen::Vector3f> points, int 
 
 Match match_point(const Eigen::Vector3f& point, const Surface& target, double max_distance) {
   Match match;
-  const auto nearest = target.nearest(point);
-  if (nearest.index < 0 || nearest.sq_distance > max_distance * max_distance) {
+  const auto nearest = target.nearest(point, static_cast<float>(max_distance * max_distance));
+  if (nearest.index < 0) {
     return match;
   }
   const Eigen::Vector3d normal = target.normal(nearest.index).cast<double>();

@@ -31,8 +31,11 @@ class Surface {
   Surface& operator=(Surface&&) noexcept;
 
   [[nodiscard]] const std::vector<Eigen::Vector3f>& points() const { return index_.points(); }
-  [[nodiscard]] PointIndex::Neighbor nearest(const Eigen::Vector3f& query) const {
-    return index_.nearest(query);
+  /// @param max_sq_distance as PointIndex has it.
+  [[nodiscard]] PointIndex::Neighbor nearest(
+      const Eigen::Vector3f& query,
+      float max_sq_distance = std::numeric_limits<float>::max()) const {
+    return index_.nearest(query, max_sq_distance);
   }
   /// Unit length; zero where the neighbours form no plane.
   [[nodiscard]] Eigen::Vector3f normal(int point) const;

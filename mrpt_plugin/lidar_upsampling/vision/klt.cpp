@@ -5,7 +5,9 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <opencv2/imgproc.hpp>
 #include <opencv2/video/tracking.hpp>
 #include <stdexcept>
@@ -22,15 +24,15 @@ struct Flow {
 
 Flow track_one_way(const ImagePyramid& from, const ImagePyramid& to,
                    const std::vector<cv::Point2f>& points, const std::vector<cv::Point2f>& guesses,
-                   const KltOptions& options) {
+                   int levels, const KltOptions& options) {
   Flow flow;
+  if (points.empty()) return flow;
   flow.points = guesses;
   const cv::TermCriteria stop(cv::TermCriteria::COUNT + cv::TermCriteria::EPS,
                               options.max_iterations, options.epsilon_px);
   cv::calcOpticalFlowPyrLK(from.levels(), to.levels(), points, flow.points, flow.found,
-                           flow.residual, cv::Size(options.window_px, options.window_px),
-                           options.pyramid_levels, stop, cv::OPTFLOW_USE_INITIAL_FLOW,
-                           options.min_eigenvalue);
+                           flow.residual, cv::Size(options.window_px, options.window_px), levels,
+                           stop, cv::OPTFLOW_USE_INITIAL_FLOW, options.min_eigenvalue);
   return flow;
 }
 
@@ -39,6 +41,33 @@ bool patch_inside(const cv::Size& size, const cv::Point2f& point, int window_px)
   const auto half = static_cast<float>(pixels);
   return point.x >= half && point.x <= static_cast<float>(size.width - 1) - half &&
          point.y >= half && point.y <= static_cast<float>(size.height - 1) - half;
+}
+
+// How far from where it started a point ends; infinitely far if it was not found both ways.
+std::vector<float> there_and_back(const ImagePyramid& from, const ImagePyramid& to,
+                                  const std::vector<cv::Point2f>& points, const Flow& forward,
+                                  const KltOptions& options) {
+  // The way back starts at its end, so that coarse levels have nothing to say.
+  constexpr int kLevels = 1;
+  std::vector<std::size_t> found;
+  std::vector<cv::Point2f> begins, ends;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (forward.found[i] == 0 || !patch_inside(from.size(), points[i], options.window_px) ||
+        !patch_inside(to.size(), forward.points[i], options.window_px))
+      continue;
+    found.push_back(i);
+    begins.push_back(points[i]);
+    ends.push_back(forward.points[i]);
+  }
+  const Flow back =
+      track_one_way(to, from, ends, begins, std::min(kLevels, options.pyramid_levels), options);
+  std::vector<float> distance(points.size(), std::numeric_limits<float>::infinity());
+  for (std::size_t k = 0; k < found.size(); ++k) {
+    if (back.found[k] == 0) continue;
+    const cv::Point2f offset = back.points[k] - begins[k];
+    distance[found[k]] = std::hypot(offset.x, offset.y);
+  }
+  return distance;
 }
 
 void align_all(const ImagePyramid& from, const ImagePyramid& to,
@@ -133,21 +162,14 @@ KltResult track_points(const ImagePyramid& from, const ImagePyramid& to,
   }
   KltResult result;
   if (points.empty()) return result;
-  Flow forward = track_one_way(from, to, points, guesses.empty() ? points : guesses, options);
-  const Flow backward = track_one_way(to, from, forward.points, points, options);
-
-  result.tracked.assign(points.size(), 0);
-  result.forward_backward_px.assign(points.size(), 0);
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const cv::Point2f there_and_back = backward.points[i] - points[i];
-    const float distance = std::hypot(there_and_back.x, there_and_back.y);
-    result.forward_backward_px[i] = distance;
-    const bool good = forward.found[i] != 0 && backward.found[i] != 0 &&
-                      patch_inside(from.size(), points[i], options.window_px) &&
-                      patch_inside(to.size(), forward.points[i], options.window_px) &&
-                      distance <= static_cast<float>(options.max_forward_backward_px);
-    result.tracked[i] = good ? 1 : 0;
-  }
+  Flow forward = track_one_way(from, to, points, guesses.empty() ? points : guesses,
+                               options.pyramid_levels, options);
+  result.forward_backward_px = there_and_back(from, to, points, forward, options);
+  result.tracked.resize(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i)
+    result.tracked[i] =
+        result.forward_backward_px[i] <= static_cast<float>(options.max_forward_backward_px) ? 1
+                                                                                             : 0;
   result.points = std::move(forward.points);
   result.residual = std::move(forward.residual);
   if (options.align) align_all(from, to, points, options.alignment, result);

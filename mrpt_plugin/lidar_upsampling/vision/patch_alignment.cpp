@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace lidar_upsampling {
 namespace {
@@ -21,13 +22,12 @@ constexpr float kMaxAffine = 0.5F;
 
 /// Shift x, y; affine xx, xy, yx, yy; gain; bias.
 using Parameters = Eigen::Matrix<float, 8, 1>;
-using Pixels = Eigen::Matrix<float, Eigen::Dynamic, 1, 0, kMaxPixels, 1>;
-using PixelJacobian = Eigen::Matrix<float, Eigen::Dynamic, 8, 0, kMaxPixels, 8>;
+using Pixels = std::array<float, kMaxPixels>;
 
 struct Template {
-  Pixels gray;
-  Pixels contrast;         ///< gray less its mean
-  PixelJacobian jacobian;  ///< of the weighted residuals
+  Pixels gray, contrast;  ///< contrast: gray less its mean
+  /// Of the weighted residuals, a column per pixel.
+  Eigen::Matrix<float, 8, kMaxPixels> jacobian;
 };
 
 bool inside(const cv::Mat& image, float x, float y) {
@@ -35,36 +35,40 @@ bool inside(const cv::Mat& image, float x, float y) {
          y < static_cast<float>(image.rows - 1);
 }
 
-float interpolate(const cv::Mat& image, float x, float y) {
-  const int left = static_cast<int>(x);
-  const int top = static_cast<int>(y);
-  const float fx = x - static_cast<float>(left);
-  const float fy = y - static_cast<float>(top);
-  const std::uint8_t* upper = image.data + static_cast<std::size_t>(top) * image.step[0] + left;
-  const std::uint8_t* lower = upper + image.step[0];
-  const float above = static_cast<float>(upper[0]) + fx * static_cast<float>(upper[1] - upper[0]);
-  const float below = static_cast<float>(lower[0]) + fx * static_cast<float>(lower[1] - lower[0]);
-  return above + fy * (below - above);
+const std::uint8_t* pixel_at(const cv::Mat& image, int left, int top) {
+  return image.data + static_cast<std::size_t>(top) * image.step[0] + left;
+}
+
+/// A square of the picture whose pixels all lie alike between the picture's own.
+/// @param out rows of `width` values.
+void cut_out(const cv::Mat& image, float x, float y, int width, float* out) {
+  const int left = static_cast<int>(x), top = static_cast<int>(y);
+  const float fx = x - static_cast<float>(left), fy = y - static_cast<float>(top);
+  std::array<float, kMaxWindow + 3> upper, lower;
+  const auto read = [&](int v, std::array<float, kMaxWindow + 3>& row) {
+    const std::uint8_t* from = pixel_at(image, left, top + v);
+    for (int u = 0; u <= width; ++u) row[u] = from[u];
+    for (int u = 0; u < width; ++u) row[u] += fx * (row[u + 1] - row[u]);
+  };
+  read(0, upper);
+  for (int v = 1; v <= width; ++v, out += width) {
+    read(v, lower);
+    for (int u = 0; u < width; ++u) out[u] = upper[u] + fy * (lower[u] - upper[u]);
+    std::swap(upper, lower);
+  }
 }
 
 /// False if the patch with the pixels around it leaves the picture.
 bool make_template(const cv::Mat& image, const cv::Point2f& point, int half,
-                   const Eigen::Map<const Eigen::VectorXf>& weight, Template& result) {
+                   const std::vector<float>& weight, Template& result) {
   const int width = 2 * half + 3;
   const auto reach = static_cast<float>(half + 1);
   if (!inside(image, point.x - reach, point.y - reach)) return false;
   if (!inside(image, point.x + reach, point.y + reach)) return false;
   std::array<float, (kMaxWindow + 2) * (kMaxWindow + 2)> gray;
-  float* next = gray.data();
-  for (int v = 0; v < width; ++v) {
-    for (int u = 0; u < width; ++u) {
-      *next++ = interpolate(image, point.x - reach + static_cast<float>(u),
-                            point.y - reach + static_cast<float>(v));
-    }
-  }
-  result.gray.resize(weight.size());
-  result.jacobian.resize(weight.size(), 8);
+  cut_out(image, point.x - reach, point.y - reach, width, gray.data());
   int i = 0;
+  float sum = 0;
   for (int v = -half; v <= half; ++v) {
     for (int u = -half; u <= half; ++u, ++i) {
       const float* centre = gray.data() + (v + half + 1) * width + u + half + 1;
@@ -73,12 +77,15 @@ bool make_template(const cv::Mat& image, const cv::Point2f& point, int half,
       const auto x = static_cast<float>(u);
       const auto y = static_cast<float>(v);
       result.gray[i] = *centre;
-      result.jacobian.row(i).head<6>() << gx, gy, gx * x, gx * y, gy * x, gy * y;
+      sum += *centre;
+      result.jacobian.col(i) << gx, gy, gx * x, gx * y, gy * x, gy * y, 0, -weight[i];
     }
   }
-  result.contrast = result.gray.array() - result.gray.mean();
-  result.jacobian.col(6) = -weight.cwiseProduct(result.contrast);
-  result.jacobian.col(7) = -weight;
+  const float mean = sum / static_cast<float>(i);
+  for (int k = 0; k < i; ++k) {
+    result.contrast[k] = result.gray[k] - mean;
+    result.jacobian(6, k) = -weight[k] * result.contrast[k];
+  }
   return true;
 }
 
@@ -92,15 +99,50 @@ bool warp(const cv::Mat& image, const cv::Point2f& guess, int half, const Parame
   const float reach_y = reach * (1 + std::abs(p[4]) + std::abs(p[5]));
   if (!inside(image, x0 - reach_x, y0 - reach_y)) return false;
   if (!inside(image, x0 + reach_x, y0 + reach_y)) return false;
+  if (p.segment<4>(2).isZero(0)) {
+    cut_out(image, x0 - reach, y0 - reach, 2 * half + 1, warped.data());
+    return true;
+  }
+  const std::uint8_t* const pixels = image.data;
+  const auto step = static_cast<std::ptrdiff_t>(image.step[0]);
   int i = 0;
   for (int v = -half; v <= half; ++v) {
     const auto y = static_cast<float>(v);
+    const float row_x = x0 + p[3] * y, row_y = y0 + y + p[5] * y;
     for (int u = -half; u <= half; ++u, ++i) {
-      const auto x = static_cast<float>(u);
-      warped[i] = interpolate(image, x0 + x + p[2] * x + p[3] * y, y0 + y + p[4] * x + p[5] * y);
+      const float px = row_x + (1 + p[2]) * static_cast<float>(u);
+      const float py = row_y + p[4] * static_cast<float>(u);
+      const int left = static_cast<int>(px), top = static_cast<int>(py);
+      const float fx = px - static_cast<float>(left), fy = py - static_cast<float>(top);
+      const std::uint8_t* upper = pixels + top * step + left;
+      const std::uint8_t* lower = upper + step;
+      const int above = upper[0], below = lower[0];
+      const float at_left = static_cast<float>(above) + fy * static_cast<float>(below - above);
+      const int above_right = upper[1], below_right = lower[1];
+      const float at_right =
+          static_cast<float>(above_right) + fy * static_cast<float>(below_right - above_right);
+      warped[i] = at_left + fx * (at_right - at_left);
     }
   }
   return true;
+}
+
+/// J J' of the first columns; only the lower triangle is filled. In blocks that fit into registers.
+Eigen::Matrix<float, 8, 8> squared(const Eigen::Matrix<float, 8, kMaxPixels>& jacobian, int size) {
+  Eigen::Matrix<float, 8, 8> result;
+  for (const auto& [row, column] : {std::pair(0, 0), std::pair(4, 0), std::pair(4, 4)}) {
+    Eigen::Vector4f a = Eigen::Vector4f::Zero(), b = a, c = a, d = a;
+    for (int k = 0; k < size; ++k) {
+      const Eigen::Vector4f left = jacobian.col(k).segment<4>(row);
+      const Eigen::Vector4f right = jacobian.col(k).segment<4>(column);
+      a += right[0] * left;
+      b += right[1] * left;
+      c += right[2] * left;
+      d += right[3] * left;
+    }
+    result.block<4, 4>(row, column) << a, b, c, d;
+  }
+  return result;
 }
 
 }  // namespace
@@ -134,33 +176,38 @@ std::optional<Alignment> PatchAligner::align(const cv::Mat& from, const cv::Mat&
                                              const cv::Point2f& point,
                                              const cv::Point2f& guess) const {
   const int half = options_.window_px / 2;
-  const Eigen::Map<const Eigen::VectorXf> weight(weight_.data(),
-                                                 static_cast<Eigen::Index>(weight_.size()));
+  const int size = static_cast<int>(weight_.size());
   Template templ;
-  if (!make_template(from, point, half, weight, templ)) return std::nullopt;
+  if (!make_template(from, point, half, weight_, templ)) return std::nullopt;
   const auto sq = [](double value) { return static_cast<float>(value * value); };
   Parameters prior;
   prior << 0, 0, Eigen::Vector4f::Constant(sq(options_.gray_sigma / options_.affine_sigma)),
       sq(options_.gray_sigma / options_.gain_sigma), 0;
-  Eigen::Matrix<float, 8, 8> normal = templ.jacobian.transpose() * templ.jacobian;
+  Eigen::Matrix<float, 8, 8> normal = squared(templ.jacobian, size);
   normal.diagonal() += prior;
   const Eigen::LLT<Eigen::Matrix<float, 8, 8>> solver(normal);
   if (solver.info() != Eigen::Success) return std::nullopt;
 
   Parameters p = Parameters::Zero();
-  Pixels residual(weight.size());
+  Pixels warped;
+  const Eigen::Map<const Eigen::ArrayXf> weight(weight_.data(), size);
+  const Eigen::Map<const Eigen::ArrayXf> gray(templ.gray.data(), size);
+  const Eigen::Map<const Eigen::ArrayXf> contrast(templ.contrast.data(), size);
+  float residual = 0;
   for (int i = 0; i < options_.max_iterations; ++i) {
-    if (!warp(to, guess, half, p, residual)) return std::nullopt;
-    residual -= templ.gray + p[6] * templ.contrast;
-    residual = (residual.array() - p[7]) * weight.array();
-    const Parameters step =
-        solver.solve(templ.jacobian.transpose() * residual + prior.cwiseProduct(p));
+    if (!warp(to, guess, half, p, warped)) return std::nullopt;
+    Parameters gradient = prior.cwiseProduct(p);
+    Eigen::Map<Eigen::ArrayXf> error(warped.data(), size);
+    error = weight * (error - gray - p[6] * contrast - p[7]);
+    for (int k = 0; k < size; ++k) gradient += error[k] * templ.jacobian.col(k);
+    residual = error.abs().sum();
+    const Parameters step = solver.solve(gradient);
     p -= step;
     if (!(p.head<2>().norm() < static_cast<float>(options_.max_correction_px))) return std::nullopt;
     if (!(p.segment<4>(2).cwiseAbs().maxCoeff() < kMaxAffine)) return std::nullopt;
     if (step.head<2>().norm() < static_cast<float>(options_.epsilon_px)) break;
   }
-  return Alignment{guess + cv::Point2f(p[0], p[1]), residual.lpNorm<1>() / weight.sum()};
+  return Alignment{guess + cv::Point2f(p[0], p[1]), residual / weight.sum()};
 }
 
 }  // namespace lidar_upsampling
