@@ -40,8 +40,10 @@ void measure_motions(std::vector<Candidate>& candidates, const std::map<int, Pas
           Twist(scans.dt * rate_over_ground(*candidate.known,
                                             before.T_rest_lidar.linear().transpose(), centroid)));
     }
-    if (const auto measured = measure_between_scans(scans, instant, key.T_rest_lidar_k.linear()))
-      candidate.known = measured;
+    auto measured = measure_between_scans(scans, instant, key.T_rest_lidar_k.linear());
+    if (!measured) return;
+    measured->found_moving = candidate.known && candidate.known->found_moving;
+    candidate.known = measured;
   });
 }
 
@@ -153,9 +155,13 @@ void start_view(CameraView& view, std::shared_ptr<const Picture> anchor, const K
     if (candidate.known)
       candidate.rate = rate_over_ground(*candidate.known, key.T_rest_lidar_k.linear().transpose(),
                                         candidate.centroid);
-  if (!config.object_motion.prior.from_images)  // it still tells where to look for the points
-    for (Candidate& candidate : view.candidates)
-      if (candidate.known && !candidate.known->from_scans) candidate.known.reset();
+  if (!config.object_motion.prior.from_images) {  // it still tells where to look for the points
+    for (Candidate& candidate : view.candidates) {
+      if (!candidate.known) continue;
+      candidate.known->found_moving = false;
+      if (!candidate.known->from_scans) candidate.known.reset();
+    }
+  }
   remember(view.past, key, view.candidates);
   view.R_rest_lidar_k = key.T_rest_lidar_k.linear();
   view.points = {};

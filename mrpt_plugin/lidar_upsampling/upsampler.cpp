@@ -217,6 +217,7 @@ void LidarUpsampler::learn(const std::vector<ObjectMotion>& objects, Stamp insta
     if (!moving) continue;
     known.velocity_at_rest = key_->T_rest_lidar_k.linear() * object.velocity_lidar_k;
     known.yaw_rate = object.yaw_rate;
+    known.found_moving = true;
   }
   constexpr double kForgetAfter_s = 2;
   for (auto motion = known_motions_.begin(); motion != known_motions_.end();)

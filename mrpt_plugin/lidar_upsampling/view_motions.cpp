@@ -54,6 +54,7 @@ MotionQuery knowing(MotionQuery query, const std::optional<KnownMotion>& known,
                     const Candidate& candidate, const CameraView& view, const LidarScan& key_scan,
                     const ObjectMotionOptions& options) {
   query.known_evidence = known ? evidence_of_motion(*known) : 0;
+  query.known_moving = known && known->found_moving;
   query.prior =
       expect_motion(known, shifted(key_scan.stamp, candidate.time_s),
                     view.R_rest_lidar_k.transpose(), candidate.centroid, query.dt, options.prior);
@@ -169,6 +170,7 @@ KnownMotion known_from(const ObjectMotion& motion, const MotionQuery& query, con
   known.stamp = shifted(measured_k, 0.5 * query.dt);
   known.velocity_at_rest = view.R_rest_lidar_k * motion.velocity_lidar_k;
   known.yaw_rate = motion.yaw_rate;
+  known.found_moving = true;
   const Eigen::Matrix3d R = view.R_rest_lidar_k * query.T_lidar_t_lidar_k.linear().transpose();
   known.velocity_covariance =
       (R * motion.position_covariance * R.transpose()).topLeftCorner<2, 2>() /

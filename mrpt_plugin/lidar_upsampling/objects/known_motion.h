@@ -17,6 +17,7 @@ struct KnownMotion {
   Eigen::Vector3d velocity_at_rest = Eigen::Vector3d::Zero();  ///< m/s
   double yaw_rate = 0;                                         ///< rad/s
   bool from_scans = false;                                     ///< by registration; else by images
+  bool found_moving = false;  ///< a picture has told it from a parked one
   Eigen::Matrix2d velocity_covariance = Eigen::Matrix2d::Zero();  ///< (m/s)^2, level
 };
 

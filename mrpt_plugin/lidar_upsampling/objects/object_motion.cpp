@@ -63,7 +63,8 @@ Eigen::Matrix3d position_covariance(const MotionPrior& prior, const MotionQuery&
 void fall_back(ObjectMotion& motion, const MotionQuery& query, MotionStatus status,
                const ObjectMotionOptions& options) {
   motion.status = status;
-  if (!options.prior.any() || query.known_evidence < options.static_significance) return;
+  const bool is_known = query.known_moving || query.known_evidence >= options.static_significance;
+  if (!options.prior.any() || !is_known) return;
   set_motion(motion, query.T_lidar_t_lidar_k * query.prior.T_mov, query);
   motion.position_covariance = position_covariance(query.prior, query);
   motion.status = MotionStatus::predicted;
