@@ -11,6 +11,7 @@
 
 #include "lidar_upsampling/objects/anchored_scan.h"
 #include "lidar_upsampling/objects/object_points.h"
+#include "lidar_upsampling/objects/travel.h"
 
 namespace lidar_upsampling {
 namespace {
@@ -24,11 +25,11 @@ Eigen::Vector3d centroid_of(const LidarScan& scan, const std::vector<int>& point
 // The motion since the scan that last showed the object, by registration; what was known before is
 // where it starts.
 void measure_motions(std::vector<Candidate>& candidates, const std::map<int, PastObject>& past,
-                     const KeyScanView& key) {
+                     const KeyScanView& key, double acceleration_sigma) {
   tbb::parallel_for(std::size_t{0}, candidates.size(), [&](std::size_t i) {
     Candidate& candidate = candidates[i];
     const auto found = past.find(candidate.track_id);
-    if (found == past.end()) return;
+    if (found == past.end() || (candidate.known && candidate.known->travel)) return;
     const PastObject& before = found->second;
     const Stamp instant = shifted(key.scan.stamp, candidate.time_s);
     const Pose T_k_before = key.T_rest_lidar_k.inverse() * before.T_rest_lidar;
@@ -42,8 +43,8 @@ void measure_motions(std::vector<Candidate>& candidates, const std::map<int, Pas
     }
     auto measured = measure_between_scans(scans, instant, key.T_rest_lidar_k.linear());
     if (!measured) return;
-    measured->found_moving = candidate.known && candidate.known->found_moving;
-    candidate.known = measured;
+    candidate.known =
+        candidate.known ? fused(*candidate.known, *measured, acceleration_sigma) : measured;
   });
 }
 
@@ -150,7 +151,8 @@ void start_view(CameraView& view, std::shared_ptr<const Picture> anchor, const K
                        [&] { cv::cornerMinEigenVal(anchor->image.gray, texture, 5); });
   view.candidates = find_candidates(view, *anchor, key, T_camera_lidar_a, visible_points(anchored),
                                     known, detector, config);
-  if (config.object_motion.prior.from_scans) measure_motions(view.candidates, view.past, key);
+  if (config.object_motion.prior.from_scans)
+    measure_motions(view.candidates, view.past, key, config.object_motion.prior.acceleration_sigma);
   for (Candidate& candidate : view.candidates)
     if (candidate.known)
       candidate.rate = rate_over_ground(*candidate.known, key.T_rest_lidar_k.linear().transpose(),
@@ -174,6 +176,10 @@ void start_view(CameraView& view, std::shared_ptr<const Picture> anchor, const K
     const double until_anchor = view.anchor_dt - candidate.time_s;
     auto points =
         followable_points(anchored, candidate.points, 2 * config.object_motion.min_points);
+    candidate.on_edges =
+        std::any_of(points.begin(), points.end(), [&](const ProjectedPoint& point) {
+          return anchored.on_edge[anchored.position[point.index]] != 0;
+        });
     if (until_anchor != 0 && !candidate.rate.isZero())
       points = reprojected(points, scan, camera,
                            T_camera_lidar_a * exp_se3(Twist(candidate.rate * until_anchor)));

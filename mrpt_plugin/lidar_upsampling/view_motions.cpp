@@ -3,8 +3,10 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <tuple>
 
 #include "lidar_upsampling/camera_view.h"
+#include "lidar_upsampling/next_scan_motions.h"
 #include "lidar_upsampling/objects/anchored_scan.h"
 #include "lidar_upsampling/objects/covered_points.h"
 #include "lidar_upsampling/objects/object_motion.h"
@@ -42,13 +44,6 @@ Pose over_whole_interval(const Pose& T_mov, const Twist& rate, double anchor_dt,
   return exp_se3(Twist(log_se3(since_anchor) * (dt / (dt - anchor_dt))));
 }
 
-// All that is asked about one candidate, and the answer.
-struct Question {
-  MotionQuery query;
-  std::vector<Correspondence> pairs;
-  ObjectMotion motion;
-};
-
 // The query with what is known of the object's motion.
 MotionQuery knowing(MotionQuery query, const std::optional<KnownMotion>& known,
                     const Candidate& candidate, const CameraView& view, const LidarScan& key_scan,
@@ -71,45 +66,19 @@ Question question_about(const CameraView& view, std::size_t i, MotionQuery query
           {}};
 }
 
-// Where neither this picture nor a motion between scans says anything, an earlier picture since the
-// key scan may: where to look again, and else how to move on. It does not weigh in otherwise, as
-// both pictures' tracks share their errors: they begin at the same points.
+// Where this picture says nothing, an earlier one since the key scan may, if it is surer than the
+// scans: where to look again, and else how to move on. It does not weigh in otherwise, as both
+// pictures' tracks share their errors: they begin at the same points.
 void fall_back_on_earlier_images(const CameraView& view, std::size_t i, Question& question,
                                  const LidarScan& key_scan, const ObjectMotionOptions& options) {
   const Candidate& candidate = view.candidates[i];
-  const bool is_answered =
-      question.motion.num_inliers > 0 || question.motion.status == MotionStatus::predicted;
-  if (is_answered || !candidate.seen) return;
+  const auto& [known, seen] = std::tie(candidate.known, candidate.seen);
+  if (question.motion.num_inliers > 0 || !seen) return;
+  if (question.motion.status == MotionStatus::predicted &&
+      known->velocity_covariance.trace() <= seen->velocity_covariance.trace())
+    return;
   question.query = knowing(question.query, candidate.seen, candidate, view, key_scan, options);
   question.motion = estimate_object_motion(question.pairs, question.query, options);
-}
-
-// Registration on the next scan starts where the picture leads; what it finds must not contradict
-// the picture.
-void use_next_scan(Candidate& candidate, Question& question, const LidarScan& key_scan,
-                   const NextScan& next, const ObjectMotionOptions& options) {
-  const MotionQuery& query = question.query;
-  const double dt_next = seconds_between(key_scan.stamp, next.stamp);
-  const bool seen_moving = question.motion.status == MotionStatus::moving;
-  if (!candidate.to_next || (seen_moving && !candidate.to_next_is_guided)) {
-    std::vector<Pose> guesses;
-    if (!candidate.rate.isZero()) guesses.push_back(exp_se3(Twist(candidate.rate * dt_next)));
-    if (seen_moving)
-      guesses.push_back(exp_se3(Twist(log_se3(question.motion.T_mov) * (dt_next / query.dt))));
-    const bool picture_says_nothing = question.motion.num_inliers == 0;
-    candidate.to_next = measure_to_next(points_at(key_scan, candidate.points), key_scan.stamp, next,
-                                        guesses, picture_says_nothing);
-    candidate.to_next_is_guided = seen_moving;
-  }
-  if (!candidate.to_next) return;
-  MotionQuery on_the_way = query;
-  on_the_way.known_evidence = evidence_of_motion(*candidate.to_next);
-  on_the_way.prior = expect_on_the_way(*candidate.to_next, query.dt, options.prior);
-  ObjectMotion known = estimate_object_motion(question.pairs, on_the_way, options);
-  constexpr double kContradicted = 0.5;
-  if (known.num_inliers < kContradicted * question.motion.num_inliers) return;
-  question.motion = std::move(known);
-  question.query = on_the_way;
 }
 
 // Where moving objects are at the image.
@@ -180,7 +149,7 @@ KnownMotion known_from(const ObjectMotion& motion, const MotionQuery& query, con
 
 // The answer with all that the virtual scan and the next picture want to know.
 ObjectMotion completed(Question question, Candidate& candidate, const CameraView& view,
-                       const LidarScan& key_scan, bool keep_known) {
+                       const LidarScan& key_scan, const MotionPriorOptions& options) {
   ObjectMotion motion = std::move(question.motion);
   const MotionQuery& query = question.query;
   if (motion.status == MotionStatus::moving) {
@@ -188,9 +157,12 @@ ObjectMotion completed(Question question, Candidate& candidate, const CameraView
                                            view.anchor_dt - candidate.time_s, query.dt);
     set_motion(motion, query.T_lidar_t_lidar_k * T_mov, query);
     candidate.rate = log_se3(T_mov) / query.dt;
-    if (keep_known)
+    if (options.from_images)
       candidate.seen = known_from(motion, query, view, shifted(key_scan.stamp, candidate.time_s));
+    if (candidate.at_next) learn_from_picture(candidate, motion, query, view, options);
   }
+  if (candidate.at_next && motion.num_inliers > 0)
+    candidate.at_next->found_moving = motion.status == MotionStatus::moving;
   motion.track_id = candidate.track_id;
   motion.class_name = candidate.detection.class_name;
   motion.camera_label = view.camera.label;
@@ -218,13 +190,14 @@ std::vector<ObjectMotion> estimate_motions(CameraView& view, const Picture& pict
     question = question_about(view, i, query, key_scan, options);
     question.motion = estimate_object_motion(question.pairs, question.query, options);
     fall_back_on_earlier_images(view, i, question, key_scan, options);
-    if (next != nullptr) use_next_scan(view.candidates[i], question, key_scan, *next, options);
+    if (next != nullptr)
+      use_next_scan(view.candidates[i], question, view, key_scan, *next, options);
   });
   if (options.drop_covered) drop_covered_points(view, key_scan, options, questions);
   std::vector<ObjectMotion> motions(questions.size());
   tbb::parallel_for(std::size_t{0}, questions.size(), [&](std::size_t i) {
-    motions[i] = completed(std::move(questions[i]), view.candidates[i], view, key_scan,
-                           options.prior.from_images);
+    motions[i] =
+        completed(std::move(questions[i]), view.candidates[i], view, key_scan, options.prior);
   });
   return motions;
 }

@@ -49,6 +49,33 @@ TEST(MeasureBetweenScans, no_road_user_jumps_up) {
   EXPECT_FALSE(measured(vehicle(12, 2), now));
 }
 
+KnownMotion velocity(double x, double y, double sigma_x, double sigma_y) {
+  KnownMotion known;
+  known.velocity_at_rest = {x, y, 0};
+  known.velocity_covariance.diagonal() << sigma_x * sigma_x, sigma_y * sigma_y;
+  return known;
+}
+
+TEST(FusedMotion, follows_in_each_direction_who_knows_it) {
+  // The side of a car slides along itself; on the picture it does not.
+  const KnownMotion both = fused(velocity(4, 0.5, 0.3, 2), velocity(1.8, 0, 5, 0.1), 3);
+  EXPECT_NEAR(both.velocity_at_rest.x(), 4, 0.15);
+  EXPECT_NEAR(both.velocity_at_rest.y(), 0, 0.01);
+  EXPECT_LT(both.velocity_covariance(0, 0), 1.1);
+  EXPECT_LE(both.velocity_covariance(1, 1), 0.01);
+}
+
+TEST(FusedMotion, is_the_newer_one_where_they_contradict_each_other) {
+  EXPECT_NEAR(fused(velocity(9, 0, 0.1, 0.1), velocity(2, 0, 0.1, 0.1), 3).velocity_at_rest.x(), 2,
+              1e-9);
+}
+
+TEST(FusedMotion, hardly_trusts_what_was_long_ago) {
+  KnownMotion newer = velocity(0, 0, 0.5, 0.5);
+  newer.stamp = shifted(newer.stamp, 2);
+  EXPECT_LT(fused(velocity(1, 0, 0.1, 0.1), newer, 3).velocity_at_rest.x(), 0.02);
+}
+
 TEST(ExpectMotion, is_as_wide_in_each_direction_as_the_velocity_was_unsure) {
   KnownMotion known;
   known.velocity_covariance << 0.01, 0, 0, 25;

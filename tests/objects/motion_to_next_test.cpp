@@ -7,57 +7,133 @@
 namespace lidar_upsampling {
 namespace {
 
-constexpr double kPeriod = 0.1;
+using Points = std::vector<Eigen::Vector3f>;
 
-// The rear of a vehicle ahead at `x`, and its left side.
-std::vector<Eigen::Vector3f> vehicle(float x) {
-  std::vector<Eigen::Vector3f> points;
-  for (float z = -1.2F; z < 0.3F; z += 0.15F) {
+constexpr double kPeriod = 0.1;
+constexpr double kRings_deg = 0.4;
+const LevelGaussian kAnywhere{{0, 0}, 1.44 * Eigen::Matrix2d::Identity()};
+
+Points rear(float x) {
+  Points points;
+  for (float z = -1.2F; z < 0.3F; z += 0.15F)
     for (float y = -0.9F; y <= 0.9F; y += 0.1F) points.emplace_back(x, y, z);
-    for (float along = 0.1F; along < 3; along += 0.1F) points.emplace_back(x + along, 0.9F, z);
-  }
   return points;
 }
 
-NextScan next_scan(std::vector<Eigen::Vector3f> points) {
-  return {shifted(Stamp{}, kPeriod), Surface(std::move(points)), Pose::Identity()};
+// The rear of a vehicle ahead at `x`, and its left side.
+Points vehicle(float x) {
+  Points points = rear(x);
+  for (float z = -1.2F; z < 0.3F; z += 0.15F)
+    for (float along = 0.1F; along < 3; along += 0.1F) points.emplace_back(x + along, 0.9F, z);
+  return points;
 }
 
-std::optional<MotionToNext> measured(const NextScan& next) {
-  return measure_to_next(vehicle(12), Stamp{}, next, {}, true);
+NextScan next_scan(const Points& points, const Pose& T_next_k = Pose::Identity()) {
+  return {shifted(Stamp{}, kPeriod), Surface(points), T_next_k, SeenSpace(points, kRings_deg)};
+}
+
+std::optional<MotionToNext> measured(const NextScan& next,
+                                     const LevelGaussian& expected = kAnywhere) {
+  return measure_to_next({vehicle(12), Stamp{}, {}, expected, true}, next);
+}
+
+double evidence_of(const MotionToNext& motion) {
+  const Travel unknown =
+      expect_travel({}, Stamp{}, Eigen::Matrix3d::Identity(), MotionPriorOptions());
+  return evidence_of_motion(having_seen(unknown, motion.step, motion.dt), motion.dt, false);
 }
 
 TEST(MeasureToNext, a_step_of_which_nothing_was_known_is_found) {
   const auto motion = measured(next_scan(vehicle(13.2F)));
   ASSERT_TRUE(motion);
-  EXPECT_NEAR(motion->step_m.x(), 1.2, 0.02);
-  EXPECT_NEAR(motion->step_m.y(), 0, 0.02);
+  EXPECT_NEAR(motion->step.mean.x(), 1.2, 0.02);
+  EXPECT_NEAR(motion->step.mean.y(), 0, 0.02);
   EXPECT_DOUBLE_EQ(motion->dt, kPeriod);
-  EXPECT_GT(evidence_of_motion(*motion), 100);
+  EXPECT_GT(evidence_of(*motion), 100);
 }
 
 TEST(MeasureToNext, the_step_is_one_over_ground) {
-  NextScan next = next_scan(vehicle(11));  // the ego has moved on by 1 m, the vehicle has not
-  next.T_lidar_next_lidar_k = Eigen::Translation3d(-1, 0, 0) * Pose::Identity();
-  const auto motion = measured(next);
+  // The ego has moved on by 1 m, the vehicle has not.
+  const auto motion =
+      measured(next_scan(vehicle(11), Eigen::Translation3d(-1, 0, 0) * Pose::Identity()));
   ASSERT_TRUE(motion);
-  EXPECT_LT(motion->step_m.norm(), 0.02);
-  EXPECT_LT(evidence_of_motion(*motion), 4);
+  EXPECT_LT(motion->step.mean.norm(), 0.02);
+  EXPECT_LT(evidence_of(*motion), 4);
 }
 
 TEST(MeasureToNext, a_scan_that_does_not_show_the_object_says_nothing) {
   EXPECT_FALSE(measured(next_scan(vehicle(40))));
 }
 
-TEST(ExpectOnTheWay, goes_at_constant_velocity_and_is_least_sure_where_nothing_ties_it) {
+TEST(MeasureToNext, a_lookalike_far_from_where_the_object_is_expected_is_another_one) {
+  const LevelGaussian parked{{0, 0}, 0.01 * Eigen::Matrix2d::Identity()};
+  EXPECT_FALSE(measured(next_scan(vehicle(13.2F)), parked));
+}
+
+TEST(MeasureToNext, of_two_alike_the_expected_one_is_taken) {
+  Points both = vehicle(12), moved = vehicle(13.2F);
+  both.insert(both.end(), moved.begin(), moved.end());
+  const LevelGaussian expected{{1.1, 0}, 0.04 * Eigen::Matrix2d::Identity()};
+  const Pose guess = Eigen::Translation3d(1.1, 0, 0) * Pose::Identity();
+  const auto motion =
+      measure_to_next({vehicle(12), Stamp{}, {guess}, expected, false}, next_scan(both));
+  ASSERT_TRUE(motion);
+  EXPECT_NEAR(motion->step.mean.x(), 1.2, 0.03);
+}
+
+TEST(MeasureToNext, what_is_hidden_by_then_does_not_speak_against_a_step) {
+  // Of the vehicle's rear all but the left third hides behind a wall.
+  Points next;
+  for (const Eigen::Vector3f& point : rear(12.8F))
+    if (point.y() > 0.25F) next.push_back(point);
+  for (float z = -1; z < 0.5F; z += 0.03F)
+    for (float y = -0.8F; y < 0.08F; y += 0.02F) next.emplace_back(6, y, z);
+  const Pose guess = Eigen::Translation3d(0.7, 0, 0) * Pose::Identity();
+  const auto motion =
+      measure_to_next({rear(12), Stamp{}, {guess}, kAnywhere, false}, next_scan(next));
+  ASSERT_TRUE(motion);
+  EXPECT_NEAR(motion->step.mean.x(), 0.8, 0.03);
+}
+
+MotionToNext two_metres_in(double seconds) {
   MotionToNext motion;
-  motion.dt = 0.4;
+  motion.dt = seconds;
   motion.T_mov = Eigen::Translation3d(2, 0, 0) * Pose::Identity();
-  motion.step_covariance = 1e-4 * Eigen::Matrix2d::Identity();
-  const auto at = [&](double dt) { return expect_on_the_way(motion, dt, MotionPriorOptions()); };
-  EXPECT_NEAR(at(0.1).T_mov.translation().x(), 0.5, 1e-9);
+  motion.centroid_k = {10, 3, 0};
+  motion.step = {{2, 0}, 1e-4 * Eigen::Matrix2d::Identity()};
+  return motion;
+}
+
+TEST(ExpectOnTheWay, goes_at_constant_velocity_and_is_least_sure_where_nothing_ties_it) {
+  const MotionPriorOptions options;
+  const MotionToNext motion = two_metres_in(0.4);
+  const Travel travel = having_seen(
+      expect_travel({}, Stamp{}, Eigen::Matrix3d::Identity(), options), motion.step, motion.dt);
+  const auto at = [&](double dt) { return expect_on_the_way(motion, travel, dt, options); };
+  EXPECT_NEAR(at(0.1).T_mov.translation().x(), 0.5, 0.01);
   EXPECT_GT(at(0.2).position_covariance(0, 0), 4 * at(0.4).position_covariance(0, 0));
   EXPECT_GT(at(0.2).position_covariance(0, 0), 4 * at(0.02).position_covariance(0, 0));
+}
+
+TEST(ExpectOnTheWay, who_was_faster_before_is_past_the_middle_at_half_time) {
+  const MotionPriorOptions options;
+  const MotionToNext motion = two_metres_in(0.4);
+  KnownMotion known;
+  known.velocity_at_rest.x() = 6;
+  known.velocity_covariance = 0.01 * Eigen::Matrix2d::Identity();
+  const Travel travel = having_seen(
+      expect_travel(known, Stamp{}, Eigen::Matrix3d::Identity(), options), motion.step, motion.dt);
+  const Pose T_mov = expect_on_the_way(motion, travel, 0.2, options).T_mov;
+  EXPECT_NEAR((T_mov * motion.centroid_k).x() - 10, 1.1, 0.02);
+}
+
+TEST(EvidenceOfMotion, is_significant_sooner_where_no_picture_speaks_for_parked) {
+  const Travel travel =
+      having_seen(expect_travel({}, Stamp{}, Eigen::Matrix3d::Identity(), MotionPriorOptions()),
+                  {{0.27, 0}, 0.01 * Eigen::Matrix2d::Identity()}, kPeriod);
+  constexpr double kSignificant = 16.8;  // of six degrees of freedom, as ObjectMotionOptions has it
+  EXPECT_LT(evidence_of_motion(travel, kPeriod, false), kSignificant);
+  EXPECT_GT(evidence_of_motion(travel, kPeriod, true), kSignificant);
 }
 
 }  // namespace

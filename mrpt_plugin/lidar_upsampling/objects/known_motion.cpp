@@ -122,6 +122,26 @@ double evidence_of_motion(const KnownMotion& known) {
   return velocity.dot(covariance.inverse() * velocity);
 }
 
+KnownMotion fused(const KnownMotion& older, const KnownMotion& newer, double acceleration_sigma) {
+  constexpr double kInherited = 1;  // m/s: the older one was sought where a still older one led
+  constexpr double kContradiction = 13.8;  // chi-square of 2 degrees of freedom, one in a thousand
+  const double between = std::abs(seconds_between(older.stamp, newer.stamp));
+  const double change = std::hypot(kInherited, acceleration_sigma * between);
+  const Eigen::Matrix2d older_covariance =
+      older.velocity_covariance + change * change * Eigen::Matrix2d::Identity();
+  const Eigen::Vector2d difference = (older.velocity_at_rest - newer.velocity_at_rest).head<2>();
+  const Eigen::Matrix2d gain =
+      newer.velocity_covariance * (older_covariance + newer.velocity_covariance).inverse();
+  KnownMotion result = newer;
+  result.found_moving = older.found_moving || newer.found_moving;
+  if (difference.dot((older_covariance + newer.velocity_covariance).inverse() * difference) >
+      kContradiction)
+    return result;
+  result.velocity_at_rest.head<2>() += gain * difference;
+  result.velocity_covariance = newer.velocity_covariance - gain * newer.velocity_covariance;
+  return result;
+}
+
 Twist rate_over_ground(const KnownMotion& known, const Eigen::Matrix3d& R_lidar_k_rest,
                        const Eigen::Vector3d& centroid) {
   const Eigen::Vector3d omega(0, 0, known.yaw_rate);

@@ -11,6 +11,13 @@
 
 namespace lidar_upsampling {
 
+/// @brief How an object travels over ground at constant acceleration, level: a Gaussian over its
+/// velocity at an instant (m/s) and its acceleration (m/s^2).
+struct Travel {
+  Eigen::Vector4d mean = Eigen::Vector4d::Zero();
+  Eigen::Matrix4d covariance = Eigen::Matrix4d::Zero();
+};
+
 /// What is known of an object's motion before it is looked at, in a frame at rest.
 struct KnownMotion {
   Stamp stamp;  ///< of the instant it was measured at
@@ -19,11 +26,19 @@ struct KnownMotion {
   bool from_scans = false;                                     ///< by registration; else by images
   bool found_moving = false;  ///< a picture has told it from a parked one
   Eigen::Matrix2d velocity_covariance = Eigen::Matrix2d::Zero();  ///< (m/s)^2, level
+  std::optional<Travel> travel;  ///< where followed to the scan at `stamp`, which need not be asked
+                                 ///< again; in the axes of the frame at rest
 };
 
 /// @brief Of the object moving at all when it was measured: a chi-square, of two degrees of freedom
 /// if it did not.
 [[nodiscard]] double evidence_of_motion(const KnownMotion& known);
+
+/// @brief Two measurements of one velocity, each weighted by its covariance; `newer` alone where
+/// they contradict each other.
+/// @param acceleration_sigma m/s^2, by which the velocity may have changed from one to the other.
+[[nodiscard]] KnownMotion fused(const KnownMotion& older, const KnownMotion& newer,
+                                double acceleration_sigma);
 
 /// @brief Motion over ground per second about the object's own centroid, in the lidar frame at k.
 /// @param centroid of the object, lidar frame at k.

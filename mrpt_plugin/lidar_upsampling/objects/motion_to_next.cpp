@@ -11,58 +11,83 @@ namespace lidar_upsampling {
 namespace {
 
 constexpr double kRegistrationSigma_m = 0.02;
-constexpr double kSearch_m = 2;  // around rest, for objects of which nothing is known
+constexpr double kSearch_m = 2;          // around rest, for objects of which nothing is known
+constexpr double kImprobable = 16;       // chi-square of two degrees of freedom
+constexpr double kMaxRise_m = 0.1;       // what a road user may rise or sink
+constexpr double kUnevenness_m = 0.04;   // of the ground, and twice what is told of heights
+constexpr double kUnexplained_m = 0.05;  // by which an expectation may be off anyway
 
-ObjectRegistrationOptions registration_options() {
+ObjectRegistrationOptions registration_options(bool search) {
   ObjectRegistrationOptions options;
   options.min_points = 10;
   options.max_points = 200;
   options.max_iterations = 20;
+  options.search_m = search ? kSearch_m : 0;
   return options;
+}
+
+Eigen::Vector3d mean_of(const std::vector<Eigen::Vector3f>& points) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (const Eigen::Vector3f& point : points) sum += point.cast<double>();
+  return sum / std::max<double>(1, static_cast<double>(points.size()));
+}
+
+/// The step over ground as a place in the next scan.
+ExpectedPlace place_of(const LevelGaussian& step, const Eigen::Vector3d& centroid,
+                       const Pose& T_next_k) {
+  Eigen::Vector3d at = centroid;
+  at.head<2>() += step.mean;
+  const Eigen::Matrix2d turn = T_next_k.linear().topLeftCorner<2, 2>();
+  return {(T_next_k * at).head<2>(), turn * step.covariance * turn.transpose()};
 }
 
 }  // namespace
 
-std::optional<MotionToNext> measure_to_next(const std::vector<Eigen::Vector3f>& points_k,
-                                            Stamp stamp_k, const NextScan& next,
-                                            const std::vector<Pose>& T_mov_guesses, bool search) {
-  std::vector<Pose> guesses{next.T_lidar_next_lidar_k};
-  for (const Pose& T_mov : T_mov_guesses) guesses.push_back(next.T_lidar_next_lidar_k * T_mov);
-  ObjectRegistrationOptions options = registration_options();
-  options.search_m = search ? kSearch_m : 0;
-  const ObjectRegistration found = register_object(points_k, next.surface, guesses, options);
-  if (found.status != RegistrationStatus::reliable && found.status != RegistrationStatus::ambiguous)
-    return {};
-
+std::optional<MotionToNext> measure_to_next(const SoughtObject& object, const NextScan& next) {
+  const Pose& T_next_k = next.T_lidar_next_lidar_k;
+  std::vector<Pose> guesses{T_next_k};
+  for (const Pose& T_mov : object.T_mov_guesses) guesses.push_back(T_next_k * T_mov);
   MotionToNext motion;
-  motion.dt = seconds_between(stamp_k, next.stamp);
-  motion.T_mov = next.T_lidar_next_lidar_k.inverse() * found.T_target_object;
-  Eigen::Vector3d centroid = Eigen::Vector3d::Zero();
-  for (const Eigen::Vector3f& point : points_k) centroid += point.cast<double>();
-  centroid /= static_cast<double>(points_k.size());
-  motion.step_m = (motion.T_mov * centroid - centroid).head<2>();
-  const double sigma = std::hypot(kRegistrationSigma_m, 0.5 * found.residual_m);
-  const Eigen::Matrix2d turn = next.T_lidar_next_lidar_k.linear().transpose().topLeftCorner<2, 2>();
-  motion.step_covariance =
+  motion.dt = seconds_between(object.stamp, next.stamp);
+  motion.centroid_k = mean_of(object.points);
+  LevelGaussian expected = object.expected_step;
+  expected.covariance += kUnexplained_m * kUnexplained_m * Eigen::Matrix2d::Identity();
+  const ExpectedPlace place = place_of(expected, motion.centroid_k, T_next_k);
+  const ObjectRegistration found =
+      register_object(object.points, next.surface, guesses, registration_options(object.search),
+                      {&place, &next.seen});
+
+  motion.T_mov = T_next_k.inverse() * found.T_target_object;
+  motion.step.mean = (motion.T_mov * motion.centroid_k - motion.centroid_k).head<2>();
+  const double rise = std::abs((motion.T_mov * motion.centroid_k - motion.centroid_k).z());
+  // What rises from the ground has slid up an inclined surface, or from ring to ring.
+  const double sigma =
+      std::hypot(kRegistrationSigma_m, 0.5 * found.residual_m, std::max(0., rise - kUnevenness_m));
+  const Eigen::Matrix2d turn = T_next_k.linear().transpose().topLeftCorner<2, 2>();
+  motion.step.covariance =
       sigma * sigma * Eigen::Matrix2d::Identity() + turn * found.slack * turn.transpose();
+  const bool is_seen =
+      found.status == RegistrationStatus::reliable || found.status == RegistrationStatus::ambiguous;
+  if (!is_seen || rise > kMaxRise_m || disagreement(motion.step, expected) > kImprobable) return {};
   return motion;
 }
 
-double evidence_of_motion(const MotionToNext& motion) {
-  return motion.step_m.dot(motion.step_covariance.inverse() * motion.step_m);
+double evidence_of_motion(const Travel& travel, double dt, bool alone) {
+  // Chi-squares of six and two degrees of freedom at one in a hundred, of two at one in twenty.
+  constexpr double kOfSix = 16.81, kOfTwo = 9.21, kOfTwoAlone = 5.99;
+  return kOfSix / (alone ? kOfTwoAlone : kOfTwo) * disagreement(step_at(travel, dt), {});
 }
 
-MotionPrior expect_on_the_way(const MotionToNext& motion, double dt,
+MotionPrior expect_on_the_way(const MotionToNext& motion, const Travel& travel, double dt,
                               const MotionPriorOptions& options) {
   const double share = std::clamp(dt / motion.dt, 0., 1.);
-  const double both_ways = share * (1 - share) * motion.dt * motion.dt;  // s^2
+  const LevelGaussian step = step_at(travel, share * motion.dt);
   MotionPrior prior = expect_motion(KnownMotion{}, {}, Eigen::Matrix3d::Identity(),
                                     Eigen::Vector3d::Zero(), dt, options);
   prior.T_mov = exp_se3(Twist(log_se3(motion.T_mov) * share));
-  prior.position_covariance =
-      share * share * motion.step_covariance +
-      std::pow(0.5 * options.acceleration_sigma * both_ways, 2) * Eigen::Matrix2d::Identity() +
-      0.005 * 0.005 * Eigen::Matrix2d::Identity();
+  const Eigen::Vector3d at = prior.T_mov * motion.centroid_k;
+  prior.T_mov.translation().head<2>() += motion.centroid_k.head<2>() + step.mean - at.head<2>();
+  prior.position_covariance = step.covariance + 0.005 * 0.005 * Eigen::Matrix2d::Identity();
   return prior;
 }
 
