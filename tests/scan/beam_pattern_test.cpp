@@ -84,17 +84,16 @@ TEST(BeamPattern, neighbours_go_round_and_not_across_gaps) {
   LabelledScan key = scan_of({}, {});
   const auto pattern = find_beam_pattern(key.scan);
   ASSERT_TRUE(pattern);
-  const BeamRow& row = pattern->rows[5];
-  const std::vector<BeamNeighbours> neighbours = find_neighbours(*pattern, 5);
-  for (std::size_t k = 0; k < neighbours.size(); ++k) {
-    const int column = key.scan.column[pattern->order[row.begin + static_cast<int>(k)]];
-    ASSERT_EQ(key.scan.column[neighbours[k].left[0]], (column + 1799) % 1800);
-    ASSERT_EQ(key.scan.column[neighbours[k].right[0]], (column + 1) % 1800);
-    ASSERT_EQ(key.scan.column[neighbours[k].up[0]], column);
-    ASSERT_EQ(key.scan.ring[neighbours[k].up[0]], 6);
-    ASSERT_EQ(key.scan.ring[neighbours[k].down[0]], 4);
-    ASSERT_EQ(key.scan.ring[neighbours[k].down[1]], 3);
-    ASSERT_EQ(key.scan.column[neighbours[k].left[1]], (column + 1798) % 1800);
+  std::vector<BeamNeighbours> neighbours(key.scan.size());
+  find_neighbours(*pattern, 5, neighbours);
+  const auto column = [&](int k) { return key.scan.column[pattern->order[k]]; };
+  const auto ring = [&](int k) { return key.scan.ring[pattern->order[k]]; };
+  for (int k = pattern->rows[5].begin; k < pattern->rows[5].end; ++k) {
+    ASSERT_EQ(column(neighbours[k][kLeft]), (column(k) + 1799) % 1800);
+    ASSERT_EQ(column(neighbours[k][kRight]), (column(k) + 1) % 1800);
+    ASSERT_EQ(column(neighbours[k][kUp]), column(k));
+    ASSERT_EQ(ring(neighbours[k][kUp]), 6);
+    ASSERT_EQ(ring(neighbours[k][kDown]), 4);
   }
 }
 

@@ -9,23 +9,18 @@
 #include <limits>
 #include <utility>
 
+#include "lidar_upsampling/scan/azimuth.h"
+
 namespace lidar_upsampling {
 namespace {
 
-constexpr float kTurn = 2 * static_cast<float>(M_PI);
 constexpr std::size_t kMaxRings = 256;  // more are the rows of a depth picture
+constexpr std::size_t kEnough = 300;    // of a ring's points, to tell what is the same for all
 
 float median(std::vector<float> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
   return *middle;
-}
-
-// Of two azimuths in [0, 2 pi), the short way round.
-float turn_between(float from, float to) {
-  const float turn = to - from;
-  if (turn > kTurn / 2) return turn - kTurn;
-  return turn < -kTurn / 2 ? turn + kTurn : turn;
 }
 
 // One ring's points and what they say about its laser.
@@ -59,26 +54,24 @@ void turn_into_order(std::vector<std::pair<float, int>>& row) {
 void sort_by_azimuth(const LidarScan& scan, Ring& ring) {
   std::vector<std::pair<float, int>> sorted;
   sorted.reserve(ring.points.size());
-  for (const int i : ring.points) {
-    const float azimuth = std::atan2(scan.points[i].y(), scan.points[i].x());
-    sorted.emplace_back(
-        azimuth < 0 ? std::min(azimuth + kTurn, std::nextafter(kTurn, 0.F)) : azimuth, i);
-  }
+  for (const int i : ring.points)
+    sorted.emplace_back(azimuth_of(scan.points[i].x(), scan.points[i].y()), i);
   turn_into_order(sorted);
   if (!std::is_sorted(sorted.begin(), sorted.end())) std::sort(sorted.begin(), sorted.end());
-  std::vector<float> steps;
+  ring.azimuth.resize(sorted.size());
   for (std::size_t k = 0; k < sorted.size(); ++k) {
     ring.points[k] = sorted[k].second;
-    ring.azimuth.push_back(sorted[k].first);
-    if (k > 0) steps.push_back(sorted[k].first - sorted[k - 1].first);
+    ring.azimuth[k] = sorted[k].first;
   }
+  std::vector<float> steps;
+  for (std::size_t k = 1; k < sorted.size(); k += sorted.size() / kEnough + 1)
+    steps.push_back(sorted[k].first - sorted[k - 1].first);
   if (!steps.empty()) ring.pitch = median(std::move(steps));
 }
 
 // height / distance = tan(elevation) + origin_height / distance: a line, fitted again without what
 // is far off it.
 void fit_laser(const LidarScan& scan, Ring& ring) {
-  constexpr std::size_t kEnough = 500;
   constexpr double kSmallest = 1e-4;               // spread of 1 / distance that tells a height
   constexpr double kTallest = 0.5;                 // metres, of a unit's optics
   std::vector<std::pair<double, double>> samples;  // 1 / distance, height / distance
@@ -130,7 +123,7 @@ bool are_picture_rows(const LidarScan& scan, const std::vector<Ring>& rings) {
 // Walks along a row beside a walk along another one, both in order of azimuth.
 class NearestInRow {
  public:
-  NearestInRow(const BeamPattern& pattern, int row) : pattern_(pattern) {
+  NearestInRow(const BeamPattern& pattern, int row) : azimuth_(pattern.azimuth.data()) {
     if (row < 0 || row >= pattern.num_rows()) return;
     begin_ = next_ = pattern.rows[row].begin;
     end_ = pattern.rows[row].end;
@@ -139,20 +132,16 @@ class NearestInRow {
   // The point nearest in azimuth, at most `reach` away; -1: none. Azimuths must not fall.
   int operator()(float azimuth, float reach) {
     if (begin_ == end_) return -1;
-    while (next_ < end_ && pattern_.azimuth[pattern_.order[next_]] < azimuth) ++next_;
-    int best = -1;
-    for (const int k : {next_ == end_ ? begin_ : next_, (next_ == begin_ ? end_ : next_) - 1}) {
-      const int i = pattern_.order[k];
-      const float gap = std::abs(turn_between(azimuth, pattern_.azimuth[i]));
-      if (gap > reach) continue;
-      reach = gap;
-      best = i;
-    }
-    return best;
+    while (next_ < end_ && azimuth_[next_] < azimuth) ++next_;
+    const int after = next_ < end_ ? next_ : begin_, before = (next_ > begin_ ? next_ : end_) - 1;
+    const float to_after = azimuth_[after] - azimuth + (next_ < end_ ? 0 : kTurn);
+    const float to_before = azimuth - azimuth_[before] + (next_ > begin_ ? 0 : kTurn);
+    if (std::min(to_after, to_before) > reach) return -1;
+    return to_before <= to_after ? before : after;
   }
 
  private:
-  const BeamPattern& pattern_;
+  const float* azimuth_;
   int begin_ = 0, end_ = 0, next_ = 0;
 };
 
@@ -162,7 +151,8 @@ BeamPattern joined(std::vector<Ring> rings, std::size_t num_points) {
     return a.row.tan_elevation < b.row.tan_elevation;
   });
   BeamPattern pattern;
-  pattern.azimuth.resize(num_points);
+  pattern.order.reserve(num_points);
+  pattern.azimuth.reserve(num_points);
   std::vector<float> pitches, scatters, gaps;
   for (Ring& ring : rings) {
     if (!pattern.rows.empty())
@@ -173,8 +163,7 @@ BeamPattern joined(std::vector<Ring> rings, std::size_t num_points) {
     pattern.order.insert(pattern.order.end(), ring.points.begin(), ring.points.end());
     ring.row.end = static_cast<int>(pattern.order.size());
     pattern.rows.push_back(ring.row);
-    for (std::size_t k = 0; k < ring.points.size(); ++k)
-      pattern.azimuth[ring.points[k]] = ring.azimuth[k];
+    pattern.azimuth.insert(pattern.azimuth.end(), ring.azimuth.begin(), ring.azimuth.end());
   }
   if (!pitches.empty()) pattern.azimuth_pitch = median(std::move(pitches));
   pattern.scatter = median(std::move(scatters)) / std::max(1e-6F, median(std::move(gaps)));
@@ -182,13 +171,6 @@ BeamPattern joined(std::vector<Ring> rings, std::size_t num_points) {
 }
 
 }  // namespace
-
-int BeamPattern::first_row_above(float distance, float height, int guess) const {
-  int row = guess;
-  while (row < num_rows() && rows[row].height_at(distance) < height) ++row;
-  while (row > 0 && rows[row - 1].height_at(distance) >= height) --row;
-  return row;
-}
 
 std::optional<BeamPattern> find_beam_pattern(const LidarScan& scan) {
   constexpr float kMaxScatter = 1;
@@ -205,28 +187,22 @@ std::optional<BeamPattern> find_beam_pattern(const LidarScan& scan) {
   return pattern;
 }
 
-std::vector<BeamNeighbours> find_neighbours(const BeamPattern& pattern, int row) {
+void find_neighbours(const BeamPattern& pattern, int row, std::vector<BeamNeighbours>& neighbours) {
   const float along = 2.5F * pattern.azimuth_pitch, across = 1.5F * pattern.azimuth_pitch;
-  const BeamRow& own = pattern.rows[row];
-  const int size = own.end - own.begin;
-  NearestInRow below(pattern, row - 1), lower(pattern, row - 2);
-  NearestInRow above(pattern, row + 1), higher(pattern, row + 2);
-  const auto at = [&](int k) { return pattern.order[own.begin + (k + 2 * size) % size]; };
-  std::vector<BeamNeighbours> neighbours(size);
-  for (int k = 0; k < size; ++k) {
-    BeamNeighbours& found = neighbours[k];
-    const float azimuth = pattern.azimuth[at(k)];
-    for (const int step : {1, 2}) {
-      const float to_left = turn_between(azimuth, pattern.azimuth[at(k + step)]);
-      const float to_right = turn_between(pattern.azimuth[at(k - step)], azimuth);
-      const float reach = static_cast<float>(step) * along;
-      if (to_left > 0 && to_left <= reach) found.left[step - 1] = at(k + step);
-      if (to_right > 0 && to_right <= reach) found.right[step - 1] = at(k - step);
-    }
-    found.down = {below(azimuth, across), lower(azimuth, across)};
-    found.up = {above(azimuth, across), higher(azimuth, across)};
+  const int begin = pattern.rows[row].begin, end = pattern.rows[row].end;
+  NearestInRow below(pattern, row - 1), above(pattern, row + 1);
+  const auto after = [&](int k) { return k + 1 < end ? k + 1 : begin; };
+  const auto is_next = [&](int k, int next) {
+    const float turn = pattern.azimuth[next] - pattern.azimuth[k] + (next > k ? 0 : kTurn);
+    return turn > 0 && turn <= along;
+  };
+  int right = is_next(end - 1, begin) ? end - 1 : -1;
+  for (int k = begin; k < end; ++k) {
+    const float azimuth = pattern.azimuth[k];
+    const int left = is_next(k, after(k)) ? after(k) : -1;
+    neighbours[k] = {right, left, below(azimuth, across), above(azimuth, across)};
+    right = left < 0 ? -1 : k;
   }
-  return neighbours;
 }
 
 }  // namespace lidar_upsampling

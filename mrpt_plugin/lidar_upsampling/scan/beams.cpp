@@ -5,10 +5,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lidar_upsampling/scan/azimuth.h"
+
 namespace lidar_upsampling {
 namespace {
 
-constexpr float kTurn = 2 * static_cast<float>(M_PI);
 constexpr int kSectors = 360;
 
 int sector_of(float azimuth) {
@@ -33,13 +34,13 @@ std::vector<Beam> find_beams(const LidarScan& scan, const BeamPattern& pattern, 
   const BeamRow& own = pattern.rows[row];
   const int size = own.end - own.begin;
   std::vector<Beam> beams;
-  beams.reserve(size);
+  beams.reserve(std::max(size, static_cast<int>(kTurn / pattern.azimuth_pitch)) + kSectors);
   for (int k = 0; k < size; ++k) {
-    const int point = pattern.order[own.begin + k],
-              next = pattern.order[own.begin + (k + 1) % size];
-    const float azimuth = pattern.azimuth[point];
+    const int after = own.begin + (k + 1 < size ? k + 1 : 0);
+    const int point = pattern.order[own.begin + k], next = pattern.order[after];
+    const float azimuth = pattern.azimuth[own.begin + k];
     beams.push_back({(scan.points[point] - own.origin()).normalized(), azimuth, point});
-    const float gap = pattern.azimuth[next] - azimuth + (k + 1 == size ? kTurn : 0);
+    const float gap = pattern.azimuth[after] - azimuth + (k + 1 == size ? kTurn : 0);
     if (gap < kSteps * pattern.azimuth_pitch) continue;
     const int steps = static_cast<int>(std::lround(gap / pattern.azimuth_pitch));
     for (int step = 1; step < steps; ++step) {
@@ -50,7 +51,22 @@ std::vector<Beam> find_beams(const LidarScan& scan, const BeamPattern& pattern, 
         beams.push_back({direction_at(own, between), between, -1, point, next, share});
     }
   }
+  // What fills the gap across azimuth zero was put behind the row's last point.
+  const auto first = std::find_if(beams.rbegin(), beams.rend(), [&](const Beam& beam) {
+    return beam.point >= 0 || beam.azimuth >= pattern.azimuth[own.begin];
+  });
+  std::rotate(beams.begin(), first.base(), beams.end());
   return beams;
+}
+
+std::vector<int> first_of_columns(const std::vector<Beam>& beams, const Columns& columns) {
+  std::vector<int> first(columns.number + 1, static_cast<int>(beams.size()));
+  int column = 0;
+  for (int k = 0; k < static_cast<int>(beams.size()); ++k) {
+    const int last = std::min(columns.number - 1, columns.at(beams[k].azimuth));
+    while (column <= last) first[column++] = k;
+  }
+  return first;
 }
 
 bool columns_go_left(const LidarScan& scan, const BeamPattern& pattern) {

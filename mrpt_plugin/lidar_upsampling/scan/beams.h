@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "lidar_upsampling/scan/azimuth.h"
 #include "lidar_upsampling/scan/beam_pattern.h"
 
 namespace lidar_upsampling {
@@ -23,6 +24,10 @@ struct Beam {
 /// @param seen the directions that the scan measures in, of seen_directions().
 [[nodiscard]] std::vector<Beam> find_beams(const LidarScan& scan, const BeamPattern& pattern,
                                            int row, const std::vector<bool>& seen);
+
+/// For each column, its first beam, and one number more: how many there are.
+[[nodiscard]] std::vector<int> first_of_columns(const std::vector<Beam>& beams,
+                                                const Columns& columns);
 
 /// Whether the scan has points there, for each of many equal sectors of azimuth.
 [[nodiscard]] std::vector<bool> seen_directions(const BeamPattern& pattern);

@@ -4,87 +4,118 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace lidar_upsampling {
-namespace {
 
-constexpr float kNever = std::numeric_limits<float>::infinity();
+RowCaster::RowCaster(const CastScene& scene, const ResampleOptions& options)
+    : scene_(scene),
+      reach_(static_cast<float>(1 + options.overlap)),
+      max_gap_(static_cast<float>(options.max_gap)),
+      same_surface_(static_cast<float>(options.same_surface_m)) {}
 
-Ray moved(const Ray& ray, const Motion& T) { return {T * ray.origin, turned(T.R, ray.direction)}; }
-
-BeamHit hit_of(const Ray& ray, const Patch& patch, int number) {
-  BeamHit hit{number, 0, 0, 1};
-  const Eigen::Vector3f from = ray.origin - patch.origin;
-  const float approach = patch.slope.dot(ray.direction);
-  const float range = (1 - patch.slope.dot(from)) / approach;
-  const Eigen::Vector3f to_hit = from + range * ray.direction;
-  const float ahead = patch.axes.col(0).dot(to_hit);
-  if (!(range > 0) || !(ahead > 0)) return hit;  // parallel, or seen from behind
-  const float x = patch.axes.col(1).dot(to_hit), y = patch.axes.col(2).dot(to_hit);
-  hit.range = range;
-  hit.approach = approach;
-  hit.offset = std::max(std::abs(x) / (x < 0 ? patch.right : patch.left),
-                        std::abs(y) / (y < 0 ? patch.down : patch.up)) /
-               ahead;
-  return hit;
-}
-
-}  // namespace
-
-Caster::Caster(const PatchSet& patches, const PatchMotions& motions, const PatchIndex& index,
-               const ResampleOptions& options)
-    : patches_(patches), motions_(motions), index_(index), options_(options) {}
-
-BeamHit Caster::cast(const Ray& ray, int row, const Beam& beam) {
-  hits_.clear();
-  static_ray_ = moved(ray, motions_.back[0]);
-  const auto reach = static_cast<float>(1 + options_.overlap);
-  index_.visit_cell(row, beam.azimuth, [&](int i) { add(ray, i, reach); });
-  if (hits_.empty()) {
-    // Where nothing came back before, nothing is expected but what has moved there.
-    if (beam.point < 0) return {};
-    return nearest_by(ray, row, beam.azimuth);
+const std::vector<BeamHit>& RowCaster::cast(int row, const RowBeams& beams) {
+  take_row(row, beams);
+  for (int from = 0; from < scene_.pattern.num_rows(); ++from) {
+    const auto [begin, end] = scene_.footprints[from].on_row(row);
+    for (const Footprint* print = begin; print != end; ++print) meet(*print, from, beams);
   }
-  return blended(
-      *std::min_element(hits_.begin(), hits_.end(),
-                        [](const BeamHit& a, const BeamHit& b) { return a.range < b.range; }));
+  result_.clear();
+  for (int k = 0; k < static_cast<int>(beams.beams.size()); ++k)
+    if (const BeamHit hit = hit_of(k, beams.beams[k].point >= 0); hit.patch >= 0)
+      result_.push_back(hit);
+  return result_;
 }
 
-void Caster::add(const Ray& ray, int patch, float reach) {
-  const int motion = motions_.of_patch[patch];
-  const BeamHit hit = hit_of(motion == 0 ? static_ray_ : moved(ray, motions_.back[motion]),
-                             patches_.patch(patch), patch);
-  if (hit.range > 0 && hit.offset <= reach) hits_.push_back(hit);
+void RowCaster::take_row(int row, const RowBeams& beams) {
+  const std::vector<Motion>& back = scene_.motions.back;
+  turns_.clear();
+  origins_.clear();
+  for (const Motion& motion : back) {
+    turns_.emplace_back(motion.R * back[0].R.transpose());
+    origins_.emplace_back(motion * scene_.pattern.rows[row].origin());
+  }
+  const std::size_t size = beams.beams.size();
+  for (auto* values : {&x_, &y_, &z_}) values->resize(size + 3, 0);
+  for (std::size_t k = 0; k < size; ++k) {
+    const Eigen::Vector3f direction = turned(back[0].R, beams.beams[k].direction);
+    x_[k] = direction.x();
+    y_[k] = direction.y();
+    z_[k] = direction.z();
+  }
+  last_.assign(size, -1);
+  num_meetings_ = 0;
 }
 
-// Of the hits on the same surface, the mean; the closest one's point is the source.
-BeamHit Caster::blended(const BeamHit& first) const {
-  if (hits_.size() == 1) return first;
+// Four beams at a time.
+void RowCaster::meet(const Footprint& print, int from_row, const RowBeams& beams) {
+  const int motion = scene_.motions.of_patch[print.patch];
+  const Patch& patch = scene_.patches.patch(print.patch);
+  const Eigen::Array4f from =
+      patch.in_frame(origins_[motion] - scene_.pattern.rows[from_row].origin());
+  Eigen::Matrix<float, 4, 3> turned_frame;
+  if (motion != 0) turned_frame = patch.frame * turns_[motion];
+  const auto& frame = motion == 0 ? patch.frame : turned_frame;
+  const Eigen::Array4f& inverse_reach = patch.inverse_reach;
+  const int begin = beams.first[print.first_column], end = beams.first[print.last_column + 1];
+  if (num_meetings_ + end - begin > static_cast<int>(meetings_.size()))
+    meetings_.resize(2 * meetings_.size() + end - begin);
+  Meeting* const meetings = meetings_.data();
+  int *const last = last_.data(), count = num_meetings_;
+  for (int k = begin; k < end; k += 4) {
+    using Four = Eigen::Map<const Eigen::Array4f>;
+    const Eigen::Array4f x = Four(&x_[k]), y = Four(&y_[k]), z = Four(&z_[k]);
+    const Eigen::Array4f approach = frame(0, 0) * x + frame(0, 1) * y + frame(0, 2) * z;
+    const Eigen::Array4f range = (1 - from[0]) / approach;
+    const Eigen::Array4f ahead =
+        from[1] + range * (frame(1, 0) * x + frame(1, 1) * y + frame(1, 2) * z);
+    const Eigen::Array4f left =
+        from[2] + range * (frame(2, 0) * x + frame(2, 1) * y + frame(2, 2) * z);
+    const Eigen::Array4f up =
+        from[3] + range * (frame(3, 0) * x + frame(3, 1) * y + frame(3, 2) * z);
+    const Eigen::Array4f sideways = (left * inverse_reach[0]).max(left * inverse_reach[1]);
+    const Eigen::Array4f upwards = (up * inverse_reach[2]).max(up * inverse_reach[3]);
+    const Eigen::Array4f offset = sideways.max(upwards) / ahead;
+    // Not if it is parallel or seen from behind.
+    const Eigen::Array4f is_near = (max_gap_ - offset).min(ahead).min(range);
+    // Without branches, as there is no telling which beams are near.
+    for (int i = 0; i < std::min(4, end - k); ++i) {
+      meetings[count] = {print.patch, last[k + i], range[i], offset[i], approach[i]};
+      const int counts = static_cast<int>(is_near[i] > 0);
+      last[k + i] += counts * (count - last[k + i]);
+      count += counts;
+    }
+  }
+  num_meetings_ = count;
+}
+
+// Of a beam's meetings with the surface that comes first, the mean; the closest one's point is the
+// source.
+BeamHit RowCaster::hit_of(int beam, bool is_measured) const {
+  const Meeting *first = nullptr, *nearest = nullptr;
+  int num_hits = 0;
+  for_each(beam, [&](const Meeting& meeting) {
+    if (nearest == nullptr || meeting.offset < nearest->offset) nearest = &meeting;
+    if (meeting.offset > reach_) return;
+    ++num_hits;
+    if (first == nullptr || meeting.range < first->range) first = &meeting;
+  });
+  // Where nothing came back before, nothing is expected but what has moved there.
+  if (nearest == nullptr || (num_hits == 0 && !is_measured)) return {};
+  if (num_hits <= 1) return {beam, nearest->patch, nearest->range};
   // Across the plane of the first one, so that ground seen at a flat angle counts as one surface.
-  const float tolerance = static_cast<float>(options_.same_surface_m) *
-                          patches_.patch(first.patch).slope.norm() / std::abs(first.approach);
-  BeamHit best{-1, 0, kNever};
+  const float farthest = first->range + same_surface_ *
+                                            scene_.patches.patch(first->patch).frame.row(0).norm() /
+                                            std::abs(first->approach);
   float sum = 0, sum_weights = 0;
-  for (const BeamHit& hit : hits_) {
-    if (hit.range > first.range + tolerance) continue;
-    const float weight = 1.001F + static_cast<float>(options_.overlap) - hit.offset;
-    sum += weight * hit.range;
+  nearest = first;
+  for_each(beam, [&](const Meeting& meeting) {
+    if (meeting.offset > reach_ || meeting.range > farthest) return;
+    const float weight = 0.001F + reach_ - meeting.offset;
+    sum += weight * meeting.range;
     sum_weights += weight;
-    if (hit.offset < best.offset) best = hit;
-  }
-  best.range = sum / sum_weights;
-  return best;
-}
-
-// In the cracks between patches.
-BeamHit Caster::nearest_by(const Ray& ray, int row, float azimuth) {
-  index_.visit_around(row, azimuth,
-                      [&](int i) { add(ray, i, static_cast<float>(options_.max_gap)); });
-  BeamHit best{-1, 0, kNever};
-  for (const BeamHit& hit : hits_)
-    if (hit.offset < best.offset) best = hit;
-  return best;
+    if (meeting.offset < nearest->offset) nearest = &meeting;
+  });
+  return {beam, nearest->patch, sum / sum_weights};
 }
 
 }  // namespace lidar_upsampling

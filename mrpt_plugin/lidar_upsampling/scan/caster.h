@@ -10,38 +10,65 @@
 
 namespace lidar_upsampling {
 
-struct Ray {
-  Eigen::Vector3f origin, direction;
-};
-
-/// Where a ray ends.
+/// Where a beam ends.
 struct BeamHit {
-  int patch = -1;      ///< none: -1
-  float range = 0;     ///< along the ray, metres
-  float offset = 0;    ///< from the patch's centre, 1: at its edge
-  float approach = 1;  ///< to the patch's plane, per range: slope times direction
+  int beam = -1;    ///< of its row
+  int patch = -1;   ///< none: -1
+  float range = 0;  ///< along the beam, metres
 };
 
-/// @brief Finds the first moved patch in a ray's way. All arguments must outlive the caster.
-class Caster {
- public:
-  Caster(const PatchSet& patches, const PatchMotions& motions, const PatchIndex& index,
-         const ResampleOptions& options);
+/// The beams of a row.
+struct RowBeams {
+  std::vector<Beam> beams;
+  std::vector<int> first;  ///< of each column, as of first_of_columns()
+};
 
-  /// @param ray of `beam`, which is of that row of the index.
-  [[nodiscard]] BeamHit cast(const Ray& ray, int row, const Beam& beam);
+/// The patches that beams may hit, and how they have moved.
+struct CastScene {
+  const BeamPattern& pattern;
+  const PatchSet& patches;
+  const PatchMotions& motions;
+  const std::vector<FootprintsOfRow>& footprints;  ///< of each row
+};
+
+/// @brief Finds the first moved patch in the way of each beam of a row. All arguments must outlive
+/// the caster, which keeps its memory from row to row.
+class RowCaster {
+ public:
+  RowCaster(const CastScene& scene, const ResampleOptions& options);
+
+  /// @return a hit for each beam that has one, in their order; good until the next call.
+  [[nodiscard]] const std::vector<BeamHit>& cast(int row, const RowBeams& beams);
 
  private:
-  void add(const Ray& ray, int patch, float reach);
-  [[nodiscard]] BeamHit blended(const BeamHit& first) const;
-  [[nodiscard]] BeamHit nearest_by(const Ray& ray, int row, float azimuth);
+  // A patch near a beam.
+  struct Meeting {
+    int patch;
+    int next;        // of the same beam
+    float range;     // along the beam, metres
+    float offset;    // from the patch's centre, 1: its edge
+    float approach;  // to the patch's plane, per range
+  };
 
-  const PatchSet& patches_;
-  const PatchMotions& motions_;
-  const PatchIndex& index_;
-  const ResampleOptions& options_;
-  Ray static_ray_{};  // the ray before the static scene's motion
-  std::vector<BeamHit> hits_;
+  void take_row(int row, const RowBeams& beams);
+  void meet(const Footprint& print, int from_row, const RowBeams& beams);
+  [[nodiscard]] BeamHit hit_of(int beam, bool is_measured) const;
+  template <typename Visit>
+  void for_each(int beam, Visit visit) const {
+    for (int k = last_[beam]; k >= 0; k = meetings_[k].next) visit(meetings_[k]);
+  }
+
+  const CastScene& scene_;
+  float reach_, max_gap_, same_surface_;
+  // Directions of the row's beams as the static scene lay in the key scan, with room for reading
+  // four from the last one on.
+  std::vector<float> x_, y_, z_;
+  std::vector<Eigen::Matrix3f> turns_;    // of each motion, from these to how its object lay
+  std::vector<Eigen::Vector3f> origins_;  // of each motion, where the row's beams begin
+  std::vector<Meeting> meetings_;         // and room for more
+  int num_meetings_ = 0;
+  std::vector<int> last_;  // meeting of each beam
+  std::vector<BeamHit> result_;
 };
 
 }  // namespace lidar_upsampling

@@ -2,112 +2,131 @@
 // Copyright (c) 2026, the lidar_upsampling authors
 #include "lidar_upsampling/scan/patch_index.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cmath>
 
 namespace lidar_upsampling {
 namespace {
 
-constexpr float kTurn = 2 * static_cast<float>(M_PI);
-constexpr float kBeamsPerCell = 1;
 constexpr float kNearest = 0.1F;  // metres from the axis: nearer places have no azimuth to speak of
+
+// The corners of a patch, lidar frame.
+struct Outline {
+  Eigen::Array4f x, y, z;
+};
+
+Outline outline_of(const Patch& patch, float origin_height, float reach) {
+  const Eigen::Array4f edge = reach / patch.inverse_reach;
+  const Eigen::Array4f x(edge[0], edge[0], edge[1], edge[1]), y(edge[2], edge[3], edge[2], edge[3]);
+  const Eigen::Array4f plane = patch.in_frame(patch.frame.row(0));
+  // A steep patch would reach to infinity.
+  const Eigen::Array4f depth = 1 / (plane[1] + plane[2] * x + plane[3] * y).max(0.25F * plane[1]);
+  const Eigen::Matrix<float, 4, 3>& axes = patch.frame;
+  return {(axes(1, 0) + axes(2, 0) * x + axes(3, 0) * y) * depth,
+          (axes(1, 1) + axes(2, 1) * x + axes(3, 1) * y) * depth,
+          (axes(1, 2) + axes(2, 2) * x + axes(3, 2) * y) * depth + origin_height};
+}
+
+Outline moved(const Outline& o, const Motion& T) {
+  const Eigen::Matrix3f& R = T.R;
+  return {R(0, 0) * o.x + R(0, 1) * o.y + R(0, 2) * o.z + T.t.x(),
+          R(1, 0) * o.x + R(1, 1) * o.y + R(1, 2) * o.z + T.t.y(),
+          R(2, 0) * o.x + R(2, 1) * o.y + R(2, 2) * o.z + T.t.z()};
+}
+
+// Rows from `first` to before `end`, azimuths from `right` to `left`.
+struct Cover {
+  int first = 0, end = 0;
+  float right = 0, left = 0;
+};
+
+// A footprint before it is known where those of its row begin.
+struct Print {
+  int first_row, end_row;
+  Footprint footprint;
+};
+
+// Finds what an outline covers, from what the one before did.
+class Coverage {
+ public:
+  Coverage(const BeamPattern& pattern, int row)
+      : pattern_(pattern),
+        origin_height_(pattern.rows[row].origin_height),
+        slack_(static_cast<int>(std::ceil(2 * pattern.scatter - 0.5F))),
+        guess_(row) {}
+
+  [[nodiscard]] Cover of(const Outline& outline) {
+    const float x = 0.25F * outline.x.sum(), y = 0.25F * outline.y.sum();
+    const float sq_distance = x * x + y * y;
+    if (!(sq_distance > kNearest * kNearest)) return {};
+    const Eigen::Array4f ahead = (outline.x * x + outline.y * y).max(0.1F * sq_distance);
+    const Eigen::Array4f sideways = (outline.y * x - outline.x * y) / ahead;
+    const Eigen::Array4f inverse_distance =
+        1 / (outline.x * outline.x + outline.y * outline.y).sqrt();
+    const Eigen::Array4f tangent = (outline.z - origin_height_) * inverse_distance;
+    const float azimuth = azimuth_of(x, y);
+    Cover cover = rows_between(tangent.minCoeff(), tangent.maxCoeff(), inverse_distance[0]);
+    cover.right = azimuth + sideways.minCoeff();  // an angle's tangent is the larger one
+    cover.left = azimuth + sideways.maxCoeff();
+    return cover;
+  }
+
+ private:
+  // @param inverse_distance at which the tangents were seen.
+  [[nodiscard]] Cover rows_between(float lowest, float highest, float inverse_distance) {
+    const auto tangent = [&](int row) {
+      return pattern_.rows[row].tan_elevation +
+             (pattern_.rows[row].origin_height - origin_height_) * inverse_distance;
+    };
+    int row = guess_;
+    while (row < pattern_.num_rows() && tangent(row) < lowest) ++row;
+    while (row > 0 && tangent(row - 1) >= lowest) --row;
+    guess_ = row;
+    while (row < pattern_.num_rows() && tangent(row) < highest) ++row;
+    return {std::max(0, guess_ - slack_), std::min(pattern_.num_rows(), row + slack_)};
+  }
+
+  const BeamPattern& pattern_;
+  float origin_height_;
+  int slack_;
+  int guess_;
+};
+
+// In one piece, or two where it lies across azimuth zero.
+void add_prints(const Cover& cover, int patch, const Columns& columns, std::vector<Print>& prints) {
+  int first = columns.at(cover.right), last = columns.at(cover.left);
+  if (last - first >= columns.number) first = 0, last = columns.number - 1;
+  if (first < 0) first += columns.number, last += columns.number;
+  if (first >= columns.number) first -= columns.number, last -= columns.number;
+  const int end = columns.number - 1;
+  prints.push_back({cover.first, cover.end, {patch, first, std::min(last, end)}});
+  if (last > end) prints.push_back({cover.first, cover.end, {patch, 0, last - end - 1}});
+}
 
 }  // namespace
 
-PatchOutline outline_of(const Patch& patch, float overlap) {
-  PatchOutline outline;
-  const Eigen::Vector3f plane = patch.axes.transpose() * patch.slope;
-  outline.centre = patch.origin + patch.axes.col(0) / plane.x();
-  auto corner = outline.corners.begin();
-  for (const float x : {-patch.right * overlap, patch.left * overlap})
-    for (const float y : {-patch.down * overlap, patch.up * overlap}) {
-      // A steep patch would reach to infinity.
-      const float inverse = std::max(0.25F * plane.x(), plane.dot(Eigen::Vector3f(1, x, y)));
-      *corner++ = patch.origin + patch.axes * Eigen::Vector3f(1, x, y) / inverse;
-    }
-  return outline;
-}
-
-PatchIndex::Footprint PatchIndex::footprint_of(const BeamPattern& pattern,
-                                               const PatchOutline& outline, const Motion& motion,
-                                               int row) const {
-  const Eigen::Vector3f centre = motion * outline.centre;
-  const float distance = centre.head<2>().norm();
-  if (!(distance > kNearest)) return {};
-  const Eigen::Vector2f ahead = centre.head<2>() / distance;
-  float right = 0, left = 0;
-  const int slack = static_cast<int>(std::ceil(2 * pattern.scatter - 0.5F));
-  int first_row = pattern.num_rows(), last_row = -1;
-  for (const Eigen::Vector3f& outlined : outline.corners) {
-    const Eigen::Vector3f corner = motion * outlined;
-    const float forward = corner.head<2>().dot(ahead);
-    if (forward <= kNearest) continue;
-    const float sideways = (corner.y() * ahead.x() - corner.x() * ahead.y()) / forward;
-    right = std::min(right, sideways);
-    left = std::max(left, sideways);
-    row = pattern.first_row_above(corner.head<2>().norm(), corner.z(), row);
-    first_row = std::min(first_row, row - slack);
-    last_row = std::max(last_row, row - 1 + slack);
+FootprintsOfRow::FootprintsOfRow(const BeamPattern& pattern, const Columns& columns,
+                                 const PatchSet& patches, const PatchMotions& motions, int row,
+                                 float reach)
+    : begin_(pattern.num_rows() + 2, 0) {
+  const BeamRow& own = pattern.rows[row];
+  std::vector<Print> prints;
+  prints.reserve(own.end - own.begin + 16);
+  Coverage coverage(pattern, row);
+  for (int i = own.begin; i < own.end; ++i) {
+    if (motions.of_patch[i] < 0) continue;
+    const Outline outline = outline_of(patches.patch(i), own.origin_height, reach);
+    const Cover cover = coverage.of(moved(outline, motions.forth[motions.of_patch[i]]));
+    if (cover.first < cover.end) add_prints(cover, i, columns, prints);
   }
-  const float azimuth = std::atan2(centre.y(), centre.x());
-  Footprint print;
-  print.first_row = static_cast<std::int16_t>(std::max(0, first_row));
-  print.last_row = static_cast<std::int16_t>(std::min(pattern.num_rows() - 1, last_row));
-  print.first_column = column_of(azimuth + right);
-  print.last_column = std::min(column_of(azimuth + left), print.first_column + num_columns_ - 1);
-  return print;
-}
-
-PatchIndex::RowPrints PatchIndex::prints_of(const BeamPattern& pattern, const PatchSet& patches,
-                                            const PatchMotions& motions, int row) const {
-  RowPrints result;
-  result.first_row = pattern.num_rows();
-  result.prints.reserve(pattern.rows[row].end - pattern.rows[row].begin);
-  for (int k = pattern.rows[row].begin; k < pattern.rows[row].end; ++k) {
-    const int i = pattern.order[k], motion = motions.of_patch[i];
-    if (motion < 0) continue;
-    Footprint print = footprint_of(pattern, patches.outline(i), motions.forth[motion], row);
-    if (print.last_row < print.first_row) continue;
-    print.patch = i;
-    result.first_row = std::min<int>(result.first_row, print.first_row);
-    result.last_row = std::max<int>(result.last_row, print.last_row);
-    result.prints.push_back(print);
-  }
-  return result;
-}
-
-PatchIndex::Row PatchIndex::cells_of(const std::vector<RowPrints>& prints, int row) const {
-  Row cells;
-  cells.begin.assign(num_columns_ + 2, 0);
-  const auto for_each_cell = [&](const auto& act) {
-    for (const RowPrints& from : prints) {
-      if (row < from.first_row || row > from.last_row) continue;
-      for (const Footprint& print : from.prints)
-        if (row >= print.first_row && row <= print.last_row)
-          for (int column = print.first_column; column <= print.last_column; ++column)
-            act(wrapped(column), print.patch);
-    }
-  };
   // Counted two places on and filled one place on, the beginnings end up where they belong.
-  for_each_cell([&](int at, int) { ++cells.begin[at + 2]; });
-  for (int at = 2; at < num_columns_ + 2; ++at) cells.begin[at] += cells.begin[at - 1];
-  cells.members.resize(cells.begin.back());
-  for_each_cell([&](int at, int patch) { cells.members[cells.begin[at + 1]++] = patch; });
-  return cells;
-}
-
-PatchIndex::PatchIndex(const BeamPattern& pattern, const PatchSet& patches,
-                       const PatchMotions& motions)
-    : num_rows_(pattern.num_rows()),
-      num_columns_(std::max(3, static_cast<int>(kTurn / (kBeamsPerCell * pattern.azimuth_pitch)))),
-      column_width_(kTurn / static_cast<float>(num_columns_)),
-      rows_(num_rows_) {
-  std::vector<RowPrints> prints(num_rows_);
-  tbb::parallel_for(0, num_rows_,
-                    [&](int row) { prints[row] = prints_of(pattern, patches, motions, row); });
-  tbb::parallel_for(0, num_rows_, [&](int row) { rows_[row] = cells_of(prints, row); });
+  for (const Print& print : prints)
+    for (int r = print.first_row; r < print.end_row; ++r) ++begin_[r + 2];
+  for (std::size_t r = 2; r < begin_.size(); ++r) begin_[r] += begin_[r - 1];
+  prints_.resize(begin_.back());
+  for (const Print& print : prints)
+    for (int r = print.first_row; r < print.end_row; ++r)
+      prints_[begin_[r + 1]++] = print.footprint;
 }
 
 }  // namespace lidar_upsampling

@@ -5,86 +5,147 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
 namespace lidar_upsampling {
 namespace {
 
-// A neighbour as seen along a point's beam: offsets to the left and upwards (tangents), inverse
-// depth. Planes are linear in these.
-struct Sight {
-  bool is_there = false;
-  bool is_same_owner = false;
-  float x = 0, y = 0, inverse_depth = 0;
-};
-
-// What the beam of the point whose patch is made sees.
-class View {
- public:
-  View(const LidarScan& scan, const std::vector<int>& owner, int point,
-       const Eigen::Vector3f& origin)
-      : scan_(scan), owner_(owner), point_(point) {
-    patch.origin = origin;
-    const Eigen::Vector3f to_point = scan.points[point] - origin;
+// The axes of the beam to a point.
+struct BeamAxes {
+  BeamAxes(const Eigen::Vector3f& origin, const Eigen::Vector3f& point) {
+    const Eigen::Vector3f to_point = point - origin;
     range = to_point.norm();
-    const Eigen::Vector3f ahead = to_point / range;
-    const Eigen::Vector3f left = Eigen::Vector3f(-ahead.y(), ahead.x(), 0).normalized();
-    patch.axes.col(0) = ahead;
-    patch.axes.col(1) = left;
-    patch.axes.col(2) = ahead.cross(left);
+    inverse_range = 1 / range;
+    ahead = to_point * inverse_range;
+    const float level = ahead.head<2>().norm(), inverse_level = 1 / level;
+    left = Eigen::Vector3f(-ahead.y() * inverse_level, ahead.x() * inverse_level, 0);
+    up = Eigen::Vector3f(-ahead.z() * left.y(), ahead.z() * left.x(), level);
   }
 
-  [[nodiscard]] Sight see(int neighbour) const {
-    Sight sight;
-    if (neighbour < 0) return sight;
-    const Eigen::Vector3f q = patch.axes.transpose() * (scan_.points[neighbour] - patch.origin);
-    if (q.x() <= 0) return sight;
-    sight.is_there = true;
-    sight.is_same_owner = owner_[neighbour] == owner_[point_];
-    sight.x = q.y() / q.x();
-    sight.y = q.z() / q.x();
-    sight.inverse_depth = 1 / q.x();
-    return sight;
-  }
-
-  Patch patch;
-  float range = 0;
-
- private:
-  const LidarScan& scan_;
-  const std::vector<int>& owner_;
-  int point_;
+  Eigen::Vector3f ahead, left, up;
+  float range, inverse_range;
 };
 
-// The way to a neighbour of the same surface: offset and difference of inverse depth, and how much
-// its slope changes beyond.
+// Neighbours as seen along a point's beam: offsets to the left and upwards (tangents), inverse
+// depth. Planes are linear in these. Four by side, or one.
+template <typename T>
+struct Sight {
+  Sight(const BeamAxes& axes, const T& x, const T& y, const T& z)
+      : inverse_depth(1 / (x * axes.ahead.x() + y * axes.ahead.y() + z * axes.ahead.z())),
+        left((x * axes.left.x() + y * axes.left.y()) * inverse_depth),
+        up((x * axes.up.x() + y * axes.up.y() + z * axes.up.z()) * inverse_depth) {}
+
+  T inverse_depth, left, up;
+};
+
+Sight<float> see(const BeamAxes& axes, const Eigen::Vector3f& origin,
+                 const Eigen::Vector3f& point) {
+  return {axes, point.x(), point.y(), point.z() - origin.z()};
+}
+
+Sight<Eigen::Array4f> see(const BeamAxes& axes, const Eigen::Vector3f& origin,
+                          const std::array<const Eigen::Vector3f*, 4>& points) {
+  const auto& [a, b, c, d] = points;
+  return {axes, Eigen::Array4f(a->x(), b->x(), c->x(), d->x()),
+          Eigen::Array4f(a->y(), b->y(), c->y(), d->y()),
+          Eigen::Array4f(a->z(), b->z(), c->z(), d->z()) - origin.z()};
+}
+
+// The way from a point to a neighbour of its surface: offset and difference of inverse depth.
 struct Step {
   bool is_there = false;
-  float offset = 0, rise = 0;
-  float bend = std::numeric_limits<float>::infinity();
+  float offset = 0, rise = 0, slope = 0;
+};
 
-  [[nodiscard]] float slope() const { return rise / offset; }
+// What a point's beam sees of its neighbours. A missing one stands where the point does.
+class Surroundings {
+ public:
+  Surroundings(const std::vector<Eigen::Vector3f>& points,
+               const std::vector<BeamNeighbours>& neighbours, const int* owner,
+               const Eigen::Vector3f& origin, int point)
+      : axes(origin, points[point]),
+        near(see(axes, origin, points_of(points, neighbours[point], point))),
+        points_(points),
+        neighbours_(neighbours),
+        owner_(owner),
+        origin_(origin),
+        point_(point) {}
+
+  // `tilt` is the slope in the direction across.
+  [[nodiscard]] Step step(Side side, float tilt) const {
+    Step step;
+    if (!has_near[side] || !is_own(neighbours_[point_][side])) return step;
+    step.is_there = true;
+    step.offset = is_upright(side) ? near.up[side] : near.left[side];
+    step.rise = near.inverse_depth[side] - axes.inverse_range -
+                tilt * (is_upright(side) ? near.left[side] : near.up[side]);
+    step.slope = step.rise / step.offset;
+    return step;
+  }
+
+  // How much the slope changes beyond a step; infinitely where there is nothing to tell it.
+  [[nodiscard]] float bend_beyond(Side side, float tilt, const Step& step) const {
+    constexpr float kUnknown = std::numeric_limits<float>::infinity();
+    const int next = neighbours_[point_][side], far = neighbours_[next][side];
+    if (far < 0 || !is_own(far)) return kUnknown;
+    const Sight<float> sight = see(axes, origin_, points_[far]);
+    const float left = sight.left - near.left[side], up = sight.up - near.up[side];
+    const float along = is_upright(side) ? up : left, across = is_upright(side) ? left : up;
+    if (along * step.offset <= 0) return kUnknown;
+    return (sight.inverse_depth - near.inverse_depth[side] - tilt * across) / along - step.slope;
+  }
+
+  BeamAxes axes;
+  Sight<Eigen::Array4f> near;
+  std::array<bool, 4> has_near{};  // by side
+
+ private:
+  static bool is_upright(Side side) { return side == kDown || side == kUp; }
+  static std::array<const Eigen::Vector3f*, 4> points_of(const std::vector<Eigen::Vector3f>& points,
+                                                         const BeamNeighbours& neighbours,
+                                                         int point) {
+    const auto of = [&](Side side) {
+      return &points[neighbours[side] < 0 ? point : neighbours[side]];
+    };
+    return {of(kRight), of(kLeft), of(kDown), of(kUp)};
+  }
+  [[nodiscard]] bool is_own(int other) const {
+    return owner_ == nullptr || owner_[other] == owner_[point_];
+  }
+
+  const std::vector<Eigen::Vector3f>& points_;
+  const std::vector<BeamNeighbours>& neighbours_;
+  const int* owner_;
+  const Eigen::Vector3f& origin_;
+  int point_;
 };
 
 class SlopeRule {
  public:
-  SlopeRule(const PatchOptions& options, float range)
-      : metres_(range * range),  // of depth, per inverse depth
-        max_step_(static_cast<float>(options.max_step_m + options.max_step_per_range * range)),
-        max_bend_(static_cast<float>(options.max_bend_m + options.max_bend_per_range * range)) {}
+  SlopeRule(const PatchOptions& options, const Surroundings& around)
+      : around_(around),
+        metres_(around.axes.range * around.axes.range),  // of depth, per inverse depth
+        max_step_(static_cast<float>(options.max_step_m +
+                                     options.max_step_per_range * around.axes.range)),
+        max_bend_(static_cast<float>(options.max_bend_m +
+                                     options.max_bend_per_range * around.axes.range)) {}
 
   // Change of inverse depth per offset: of both sides where the surface goes straight on, else of
   // the flatter side, as an edge is the steeper one; zero where both are depth edges.
-  [[nodiscard]] float slope(const Step& before, const Step& after) const {
+  // @param tilt the slope in the direction across.
+  [[nodiscard]] float slope(Side before_side, Side after_side, float tilt) const {
+    const Step before = around_.step(before_side, tilt), after = around_.step(after_side, tilt);
     if (before.is_there && after.is_there &&
-        is_straight(after.slope() - before.slope(), after.offset - before.offset))
+        is_straight(after.slope - before.slope, after.offset - before.offset))
       return (after.rise - before.rise) / (after.offset - before.offset);
-    const bool before_counts = counts(before), after_counts = counts(after);
+    const bool before_counts = counts(before, before_side, tilt);
+    const bool after_counts = counts(after, after_side, tilt);
     if (before_counts && after_counts)
-      return std::abs(before.slope()) < std::abs(after.slope()) ? before.slope() : after.slope();
-    if (before_counts) return before.slope();
-    return after_counts ? after.slope() : 0;
+      return std::abs(before.slope) < std::abs(after.slope) ? before.slope : after.slope;
+    if (before_counts) return before.slope;
+    return after_counts ? after.slope : 0;
   }
 
  private:
@@ -93,59 +154,36 @@ class SlopeRule {
   }
   // A long step is no depth edge if the surface goes on with the same slope, as the ground does far
   // away.
-  [[nodiscard]] bool counts(const Step& step) const {
-    return step.is_there &&
-           (metres_ * std::abs(step.rise) < max_step_ || is_straight(step.bend, 2 * step.offset));
+  [[nodiscard]] bool counts(const Step& step, Side side, float tilt) const {
+    return step.is_there && (metres_ * std::abs(step.rise) < max_step_ ||
+                             is_straight(around_.bend_beyond(side, tilt, step), 2 * step.offset));
   }
 
+  const Surroundings& around_;
   float metres_, max_step_, max_bend_;
 };
 
-// `tilt` is the slope in the direction `across` this one.
-struct Direction {
-  float Sight::*along;
-  float Sight::*across;
-  float inverse_depth, tilt;
-
-  [[nodiscard]] Step step(const Sight& near, const Sight& far) const {
-    Step step;
-    if (!near.is_there || !near.is_same_owner) return step;
-    step.is_there = true;
-    step.offset = near.*along;
-    step.rise = near.inverse_depth - inverse_depth - tilt * near.*across;
-    if (!far.is_there || !far.is_same_owner) return step;
-    const float further = far.*along - near.*along;
-    if (further * step.offset <= 0) return step;
-    const float rise = far.inverse_depth - near.inverse_depth - tilt * (far.*across - near.*across);
-    step.bend = rise / further - step.slope();
-    return step;
-  }
-};
-
-Patch make_patch(View view, const BeamNeighbours& neighbours, const Eigen::Vector3f& cell,
-                 const PatchOptions& options) {
-  Patch& patch = view.patch;
-  const float inverse = 1 / view.range, tiny = 0.05F * cell.x();
-  const SlopeRule rule(options, view.range);
-  Sight right = view.see(neighbours.right[0]), left = view.see(neighbours.left[0]);
-  Sight down = view.see(neighbours.down[0]), up = view.see(neighbours.up[0]);
-  right.is_there = right.is_there && right.x < -tiny;
-  left.is_there = left.is_there && left.x > tiny;
-  down.is_there = down.is_there && down.y < -0.2F * cell.y();
-  up.is_there = up.is_there && up.y > 0.2F * cell.z();
-
-  const Direction along{&Sight::x, &Sight::y, inverse, 0};
-  const float sideways = rule.slope(along.step(right, view.see(neighbours.right[1])),
-                                    along.step(left, view.see(neighbours.left[1])));
-  const Direction across{&Sight::y, &Sight::x, inverse, sideways};
-  const float upwards = rule.slope(across.step(down, view.see(neighbours.down[1])),
-                                   across.step(up, view.see(neighbours.up[1])));
-  patch.slope = patch.axes * Eigen::Vector3f(inverse, sideways, upwards);
-
-  patch.right = 0.5F * (right.is_there ? -right.x : cell.x());
-  patch.left = 0.5F * (left.is_there ? left.x : cell.x());
-  patch.down = 0.5F * (down.is_there ? std::min(-down.y, 2 * cell.y()) : cell.y());
-  patch.up = 0.5F * (up.is_there ? std::min(up.y, 2 * cell.z()) : cell.z());
+Patch patch_of(const Surroundings& around, const Eigen::Vector3f& cell,
+               const PatchOptions& options) {
+  const BeamAxes& axes = around.axes;
+  const SlopeRule rule(options, around);
+  const float sideways = rule.slope(kRight, kLeft, 0);
+  const float upwards = rule.slope(kDown, kUp, sideways);
+  Patch patch;
+  patch.frame.row(0) = axes.inverse_range * axes.ahead + sideways * axes.left + upwards * axes.up;
+  patch.frame.row(1) = axes.ahead;
+  patch.frame.row(2) = axes.left;
+  patch.frame.row(3) = axes.up;
+  const auto reach = [&](Side side, float offset, float usual, float largest) {
+    return 0.5F * (around.has_near[side] ? std::min(offset, largest) : usual);
+  };
+  constexpr float kAny = std::numeric_limits<float>::infinity();
+  patch.inverse_reach =
+      Eigen::Array4f(1, -1, 1, -1) /
+      Eigen::Array4f(reach(kLeft, around.near.left[kLeft], cell.x(), kAny),
+                     reach(kRight, -around.near.left[kRight], cell.x(), kAny),
+                     reach(kUp, around.near.up[kUp], cell.z(), 2 * cell.z()),
+                     reach(kDown, -around.near.up[kDown], cell.y(), 2 * cell.y()));
   return patch;
 }
 
@@ -160,38 +198,26 @@ Eigen::Vector3f cell_of(const BeamPattern& pattern, int row) {
 
 }  // namespace
 
-PatchMaker::PatchMaker(const LidarScan& scan, const BeamPattern& pattern,
+PatchMaker::PatchMaker(const std::vector<Eigen::Vector3f>& points, const BeamPattern& pattern,
                        const PatchOptions& options)
-    : scan_(scan),
+    : points_(points),
       pattern_(pattern),
       options_(options),
-      neighbours_(scan.size()),
-      row_(scan.size()),
+      neighbours_(points.size()),
       cells_(pattern.num_rows()) {
-  tbb::parallel_for(0, pattern.num_rows(), [&](int r) {
-    const BeamRow& row = pattern.rows[r];
-    cells_[r] = cell_of(pattern, r);
-    const std::vector<BeamNeighbours> found = find_neighbours(pattern, r);
-    for (int k = row.begin; k < row.end; ++k) {
-      neighbours_[pattern.order[k]] = found[k - row.begin];
-      row_[pattern.order[k]] = static_cast<std::uint16_t>(r);
-    }
+  tbb::parallel_for(0, pattern.num_rows(), [&](int row) {
+    cells_[row] = cell_of(pattern, row);
+    find_neighbours(pattern, row, neighbours_);
   });
 }
 
-Patch PatchMaker::make(int point, const std::vector<int>& owner) const {
-  const int row = row_[point];
-  return make_patch({scan_, owner, point, pattern_.rows[row].origin()}, neighbours_[point],
-                    cells_[row], options_);
-}
-
-std::vector<Patch> PatchMaker::make_all(const std::vector<int>& owner) const {
-  std::vector<Patch> patches(scan_.size());
-  tbb::parallel_for(0, pattern_.num_rows(), [&](int r) {
-    for (int k = pattern_.rows[r].begin; k < pattern_.rows[r].end; ++k)
-      patches[pattern_.order[k]] = make(pattern_.order[k], owner);
-  });
-  return patches;
+Patch PatchMaker::make(int row, int point, const int* owner) const {
+  const Eigen::Vector3f &cell = cells_[row], origin = pattern_.rows[row].origin();
+  Surroundings around(points_, neighbours_, owner, origin, point);
+  const float tiny = 0.05F * cell.x();
+  around.has_near = {around.near.left[kRight]<-tiny, around.near.left[kLeft]> tiny,
+                     around.near.up[kDown]<-0.2F * cell.y(), around.near.up[kUp]> 0.2F * cell.z()};
+  return patch_of(around, cell, options_);
 }
 
 }  // namespace lidar_upsampling

@@ -10,12 +10,20 @@
 namespace lidar_upsampling {
 
 /// @brief The piece of surface that one measured point stands for: flat, and as large as the cell
-/// of its beam, half-way to the beams around.
+/// of its beam, half-way to the beams around. Laid out for four products at a time.
 struct Patch {
-  Eigen::Vector3f origin;       ///< of the beam
-  Eigen::Matrix3f axes;         ///< columns: along the beam, to the left, upwards
-  Eigen::Vector3f slope;        ///< n with n . (p - origin) = 1 for its points p
-  float right, left, down, up;  ///< reach as seen from the origin: tangents of the angles
+  /// Rows, from the origin of its beam: n with n . p = 1 for its points p; unit vectors along the
+  /// beam, to the left, upwards.
+  Eigen::Matrix<float, 4, 3> frame;
+  /// Of its reach to the left, right (negative), up and down (negative): tangents of the angles as
+  /// seen from the origin of its beam.
+  Eigen::Array4f inverse_reach;
+
+  /// n . v, and v along the three axes.
+  [[nodiscard, gnu::always_inline]] Eigen::Array4f in_frame(const Eigen::Vector3f& v) const {
+    return frame.col(0).array() * v.x() + frame.col(1).array() * v.y() +
+           frame.col(2).array() * v.z();
+  }
 };
 
 /// When neighbouring points are of one surface.
@@ -30,24 +38,21 @@ struct PatchOptions {
 /// surface, so never over a depth edge; where a point has none, its patch faces the sensor.
 class PatchMaker {
  public:
-  /// Both must outlive the maker.
-  PatchMaker(const LidarScan& scan, const BeamPattern& pattern, const PatchOptions& options);
+  /// @param points in the pattern's order. Both must outlive the maker.
+  PatchMaker(const std::vector<Eigen::Vector3f>& points, const BeamPattern& pattern,
+             const PatchOptions& options);
 
-  /// @param owner of each point; neighbours of another owner are another surface.
-  [[nodiscard]] Patch make(int point, const std::vector<int>& owner) const;
+  /// @param point of that row. @param owner of each point; neighbours of another owner are another
+  /// surface. Null: all have the same.
+  [[nodiscard]] Patch make(int row, int point, const int* owner = nullptr) const;
 
-  /// @brief Of all points.
-  [[nodiscard]] std::vector<Patch> make_all(const std::vector<int>& owner) const;
-
-  /// The points whose patches may lead to this point.
-  [[nodiscard]] const BeamNeighbours& neighbours(int point) const { return neighbours_[point]; }
+  [[nodiscard]] const std::vector<BeamNeighbours>& neighbours() const { return neighbours_; }
 
  private:
-  const LidarScan& scan_;
+  const std::vector<Eigen::Vector3f>& points_;
   const BeamPattern& pattern_;
   PatchOptions options_;
   std::vector<BeamNeighbours> neighbours_;  // of each point
-  std::vector<std::uint16_t> row_;          // of each point
   std::vector<Eigen::Vector3f> cells_;      // of each row
 };
 

@@ -11,10 +11,9 @@ namespace lidar_upsampling {
 /// The values at these places, in their order; none of none.
 template <typename T>
 [[nodiscard]] std::vector<T> taken(const std::vector<T>& values, const std::vector<int>& indices) {
-  std::vector<T> result;
-  if (values.empty()) return result;
-  result.reserve(indices.size());
-  for (const int i : indices) result.push_back(values[i]);
+  if (values.empty()) return {};
+  std::vector<T> result(indices.size());
+  for (std::size_t k = 0; k < indices.size(); ++k) result[k] = values[indices[k]];
   return result;
 }
 
