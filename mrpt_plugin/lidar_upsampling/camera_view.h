@@ -37,6 +37,8 @@ struct Candidate {
   std::optional<KnownMotion> seen;   ///< on the last image since the key scan that told it
   std::optional<MotionToNext> to_next;  ///< where the next scan is known and shows it
   bool to_next_is_guided = false;       ///< whether a picture led there
+  bool on_edges = false;  ///< whether its followed points lie on depth edges, for want of others
+  std::optional<KnownMotion> at_next;  ///< its velocity at the next scan, where that is known
   Twist rate =
       Twist::Zero();  ///< motion over ground per second, in the lidar frame at k, as last estimated
   Twist anchor_rate = Twist::Zero();  ///< the same, as its points were put on the anchor

@@ -8,6 +8,7 @@
 
 #include "lidar_upsampling/camera_view.h"
 #include "lidar_upsampling/key_scan.h"
+#include "lidar_upsampling/objects/beam_step.h"
 #include "lidar_upsampling/se3.h"
 #include "lidar_upsampling/stopwatch.h"
 
@@ -85,9 +86,9 @@ void LidarUpsampler::expect_next(const LidarScan& next) {
   LidarScan straight = next;
   const Pose T_lidar_next_lidar_k = take_up(straight, nullptr);
   const Stopwatch watch(timing_, "next scan");
-  next_ = std::make_unique<NextScan>(
-      NextScan{next.stamp, Surface(without_ground(straight, config_.segments.ground)),
-               T_lidar_next_lidar_k});
+  next_ = std::make_unique<NextScan>(NextScan{
+      next.stamp, Surface(without_ground(straight, config_.segments.ground)), T_lidar_next_lidar_k,
+      SeenSpace(straight.points, estimate_vertical_step_deg(straight))});
 }
 
 std::optional<VirtualScan> LidarUpsampler::insert_image(const CameraImage& image) {
@@ -201,6 +202,8 @@ void LidarUpsampler::process(CameraView& view, const Picture& picture) {
     result.objects =
         estimate_motions(view, picture, key_->scan, result.ego.T_to_from, next_.get(), config_);
   }
+  for (const Candidate& candidate : view.candidates)
+    if (candidate.at_next) known_motions_[candidate.track_id] = *candidate.at_next;
   group_.push_back(std::move(result));
 }
 
@@ -209,6 +212,7 @@ void LidarUpsampler::learn(const std::vector<ObjectMotion>& objects, Stamp insta
     const bool moving = object.status == MotionStatus::moving;
     if (!moving && object.status != MotionStatus::stationary) continue;
     KnownMotion& known = known_motions_[object.track_id];
+    if (known.travel && known.stamp > instant) continue;
     known = {};
     known.stamp = instant;
     const double dt = seconds_between(key_->scan.stamp, instant);

@@ -53,16 +53,19 @@ std::optional<MotionToNext> measure_to_next(const SoughtObject& object, const Ne
   LevelGaussian expected = object.expected_step;
   expected.covariance += kUnexplained_m * kUnexplained_m * Eigen::Matrix2d::Identity();
   const ExpectedPlace place = place_of(expected, motion.centroid_k, T_next_k);
+  const ObjectRegistrationOptions options = registration_options(object.search);
   const ObjectRegistration found =
-      register_object(object.points, next.surface, guesses, registration_options(object.search),
-                      {&place, &next.seen});
+      register_object(object.points, next.surface, guesses, options, {&place, &next.seen});
 
   motion.T_mov = T_next_k.inverse() * found.T_target_object;
   motion.step.mean = (motion.T_mov * motion.centroid_k - motion.centroid_k).head<2>();
   const double rise = std::abs((motion.T_mov * motion.centroid_k - motion.centroid_k).z());
-  // What rises from the ground has slid up an inclined surface, or from ring to ring.
-  const double sigma =
-      std::hypot(kRegistrationSigma_m, 0.5 * found.residual_m, std::max(0., rise - kUnevenness_m));
+  // Neighbouring points err alike: ten count as one. What rises from the ground has slid up an
+  // inclined surface, or from ring to ring.
+  const double count =
+      std::min<double>(static_cast<double>(object.points.size()), options.max_points) / 10;
+  const double sigma = std::hypot(kRegistrationSigma_m, found.residual_m / std::sqrt(count),
+                                  std::max(0., rise - kUnevenness_m));
   const Eigen::Matrix2d turn = T_next_k.linear().transpose().topLeftCorner<2, 2>();
   motion.step.covariance =
       sigma * sigma * Eigen::Matrix2d::Identity() + turn * found.slack * turn.transpose();

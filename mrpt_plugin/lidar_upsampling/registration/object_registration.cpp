@@ -6,31 +6,25 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
+#include "lidar_upsampling/registration/object_fit.h"
 #include "lidar_upsampling/se3.h"
 
 namespace lidar_upsampling {
 
 namespace {
 
-constexpr double kScoreCut = 0.5;  // m
 constexpr double kResidualSigma =
     0.03;  // m, of a good match: what the soft constraints weigh against
 
 using Points = std::vector<Eigen::Vector3f>;
 
-struct Problem {
-  const Points& points;
-  const Surface& target;
-  const Pose& T_level;  ///< the ego-motion
-  const ObjectRegistrationOptions& options;
-  Eigen::Vector3d centroid;
-};
-
 struct Candidate {
   Pose T = Pose::Identity();
   double score = kScoreCut;
+  double rank = kScoreCut;  ///< the score, with what an unexpected place adds
 };
 
 Points thinned(const Points& points, int max_points) {
@@ -46,20 +40,8 @@ Points thinned(const Points& points, int max_points) {
   return kept;
 }
 
-double score_of(const Problem& problem, const Pose& T_target_object, int stride = 1) {
-  const Eigen::Isometry3f T = T_target_object.cast<float>();
-  double sum = 0;
-  int count = 0;
-  for (std::size_t i = 0; i < problem.points.size(); i += stride, ++count) {
-    constexpr auto kFarthest = static_cast<float>(kScoreCut * kScoreCut);
-    const auto nearest = problem.target.nearest(T * problem.points[i], kFarthest);
-    sum += std::min(nearest.sq_distance, kFarthest);
-  }
-  return std::sqrt(sum / count);
-}
-
 /// Adds one point's match: across the surface with full weight, along it with little.
-void add_match(const Problem& problem, const Eigen::Vector3d& point, const Eigen::Vector3d& pivot,
+void add_match(const ObjectFit& problem, const Eigen::Vector3d& point, const Eigen::Vector3d& pivot,
                double scale, Matrix6d& H, Twist& b) {
   const double reach = problem.options.max_correspondence_m;
   const auto nearest =
@@ -86,7 +68,7 @@ void add_match(const Problem& problem, const Eigen::Vector3d& point, const Eigen
 }
 
 /// Vehicles stay level with the ground: soft, or sparse rings would tilt them.
-void add_level(const Problem& problem, const Pose& T, Matrix6d& H, Twist& b) {
+void add_level(const ObjectFit& problem, const Pose& T, Matrix6d& H, Twist& b) {
   const Eigen::AngleAxisd turned(T.linear() * problem.T_level.linear().transpose());
   const Eigen::Vector3d tilt = turned.angle() * turned.axis();
   const double rise = (T * problem.centroid - problem.T_level * problem.centroid).z();
@@ -100,21 +82,8 @@ void add_level(const Problem& problem, const Pose& T, Matrix6d& H, Twist& b) {
   b[5] -= weight(problem.options.height_sigma_m) * rise;
 }
 
-double residual_of(const Problem& problem, const Pose& T_target_object) {
-  double sum = 0;
-  for (const auto& point : problem.points) {
-    const Eigen::Vector3f at = T_target_object.cast<float>() * point;
-    const auto nearest = problem.target.nearest(at);
-    const Eigen::Vector3f normal = problem.target.normal(nearest.index);
-    const Eigen::Vector3f error = at - problem.target.points()[nearest.index];
-    const double sq = normal.isZero() ? error.squaredNorm() : std::pow(normal.dot(error), 2);
-    sum += std::min(sq, kScoreCut * kScoreCut);
-  }
-  return std::sqrt(sum / static_cast<double>(problem.points.size()));
-}
-
 /// @param stop a step this short ends the search, m and rad
-Candidate converge(const Problem& problem, const Pose& guess, double stop = 2e-4) {
+Candidate converge(const ObjectFit& problem, const Pose& guess, double stop = 2e-4) {
   Pose T = guess;
   double scale = 4 * problem.options.kernel_m;
   for (int i = 0; i < problem.options.max_iterations; ++i) {
@@ -122,7 +91,9 @@ Candidate converge(const Problem& problem, const Pose& guess, double stop = 2e-4
     Twist b = Twist::Zero();
     const Eigen::Vector3d pivot = T * problem.centroid;
     for (const auto& point : problem.points) {
-      add_match(problem, T * point.cast<double>(), pivot, scale, H, b);
+      const Eigen::Vector3d place = T * point.cast<double>();
+      if (sight_in(problem, place.cast<float>()) == Sight::hidden) continue;
+      add_match(problem, place, pivot, scale, H, b);
     }
     add_level(problem, T, H, b);
     const Twist step = H.ldlt().solve(b);
@@ -136,13 +107,14 @@ Candidate converge(const Problem& problem, const Pose& guess, double stop = 2e-4
     }
     scale = std::max(problem.options.kernel_m, 0.75 * scale);
   }
-  return {T, score_of(problem, T)};
+  const double score = score_of(problem, T);
+  return {T, score, rank_of(problem, T, score)};
 }
 
 Pose shifted_by(const Pose& T, double x, double y) { return Eigen::Translation3d(x, y, 0) * T; }
 
 /// The best start on a half-metre grid around the ego-motion.
-Candidate search_start(const Problem& problem) {
+Candidate search_start(const ObjectFit& problem) {
   constexpr double kCell = 0.5;
   const int reach = static_cast<int>(problem.options.search_m / kCell);
   const int stride = std::max(1, static_cast<int>(problem.points.size()) / 60);
@@ -152,26 +124,27 @@ Candidate search_start(const Problem& problem) {
       const Pose start = shifted_by(problem.T_level, ix * kCell, iy * kCell);
       const double score = score_of(problem, start, stride);
       if (score < best.score) {
-        best = {start, score};
+        best = {start, score, score};
       }
     }
   }
   return best;
 }
 
-Candidate best_candidate(const Problem& problem, const std::vector<Pose>& guesses) {
+Candidate best_candidate(const ObjectFit& problem, const std::vector<Pose>& guesses) {
   Candidate best;
+  if (problem.clues.expected != nullptr) best.rank = std::numeric_limits<double>::infinity();
   for (const Pose& guess : guesses) {
     if (&guess != &guesses.front() && guess.isApprox(guesses.front(), 1e-9)) continue;
     const Candidate candidate = converge(problem, guess);
-    if (candidate.score < best.score) {
+    if (candidate.rank < best.rank) {
       best = candidate;
     }
   }
   if (problem.options.search_m <= 0) return best;
   // A far-off start may land on a neighbour that looks alike: it must be clearly better.
   const Candidate searched = converge(problem, search_start(problem).T);
-  return searched.score < 0.8 * best.score ? searched : best;
+  return searched.rank < 0.8 * best.rank ? searched : best;
 }
 
 struct Ambiguity {
@@ -180,7 +153,7 @@ struct Ambiguity {
 };
 
 /// A start that comes back part of the way speaks of a weak pull there, one that stays of none.
-Ambiguity ambiguity_of(const Problem& problem, const Candidate& best) {
+Ambiguity ambiguity_of(const ObjectFit& problem, const Candidate& best) {
   constexpr double kShift = 0.2;
   constexpr double kStop = 0.01 * kShift;  // finer would tell nothing of who comes back
   constexpr std::array<std::array<double, 2>, 4> kShifts{
@@ -197,16 +170,6 @@ Ambiguity ambiguity_of(const Problem& problem, const Candidate& best) {
     }
   }
   return result;
-}
-
-double overlap_of(const Problem& problem, const Pose& T_target_object) {
-  const Eigen::Isometry3f T = T_target_object.cast<float>();
-  const auto reach = static_cast<float>(problem.options.overlap_distance_m);
-  const auto covered = std::count_if(
-      problem.points.begin(), problem.points.end(), [&](const Eigen::Vector3f& point) {
-        return problem.target.nearest(T * point, reach * reach).index >= 0;
-      });
-  return static_cast<double>(covered) / static_cast<double>(problem.points.size());
 }
 
 }  // namespace
@@ -227,7 +190,8 @@ const char* to_string(RegistrationStatus status) {
 
 ObjectRegistration register_object(const Points& points_object, const Surface& target,
                                    const std::vector<Pose>& guesses,
-                                   const ObjectRegistrationOptions& options) {
+                                   const ObjectRegistrationOptions& options,
+                                   const RegistrationClues& clues) {
   if (guesses.empty()) {
     throw std::invalid_argument("register_object: needs at least one guess, the ego-motion");
   }
@@ -241,7 +205,7 @@ ObjectRegistration register_object(const Points& points_object, const Surface& t
   for (const auto& point : points) {
     centroid += point.cast<double>() / static_cast<double>(points.size());
   }
-  const Problem problem{points, target, guesses.front(), options, centroid};
+  const ObjectFit problem{points, target, guesses.front(), options, centroid, clues};
   const Candidate best = best_candidate(problem, guesses);
   result.T_target_object = best.T;
   result.score_m = best.score;

@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "lidar_upsampling/registration/seen_space.h"
 #include "lidar_upsampling/registration/surface.h"
 #include "lidar_upsampling/types.h"
 
@@ -22,6 +23,19 @@ struct ObjectRegistrationOptions {
   double min_overlap = 0.6;
   double max_spread_m = 0.1;  ///< between answers from several starts
   int max_iterations = 25;
+};
+
+/// Where an object is expected: level place of its centroid in the target's frame.
+struct ExpectedPlace {
+  Eigen::Vector2d centroid = Eigen::Vector2d::Zero();
+  Eigen::Matrix2d covariance = Eigen::Matrix2d::Identity();  ///< m^2
+};
+
+/// What else is known of an object and its target; null: nothing.
+struct RegistrationClues {
+  const ExpectedPlace* expected = nullptr;  ///< an answer far from there must fit the better
+  const SeenSpace* seen = nullptr;  ///< by the target's sensor: what is hidden from it needs no
+                                    ///< counterpart, where it saw through the object cannot be
 };
 
 /// Why a registration is not to be trusted.
@@ -50,6 +64,7 @@ struct ObjectRegistration {
 [[nodiscard]] ObjectRegistration register_object(const std::vector<Eigen::Vector3f>& points_object,
                                                  const Surface& target,
                                                  const std::vector<Pose>& guesses,
-                                                 const ObjectRegistrationOptions& options = {});
+                                                 const ObjectRegistrationOptions& options = {},
+                                                 const RegistrationClues& clues = {});
 
 }  // namespace lidar_upsampling

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the lidar_upsampling authors
+#pragma once
+
+#include <vector>
+
+#include "lidar_upsampling/registration/object_registration.h"
+#include "lidar_upsampling/types.h"
+
+namespace lidar_upsampling {
+
+/// An object to be fitted to a target, and by what it is judged.
+struct ObjectFit {
+  const std::vector<Eigen::Vector3f>& points;
+  const Surface& target;
+  const Pose& T_level;  ///< the ego-motion
+  const ObjectRegistrationOptions& options;
+  Eigen::Vector3d centroid;  ///< of the points
+  const RegistrationClues& clues;
+};
+
+/// Farther matches, m, are all as bad.
+constexpr double kScoreCut = 0.5;
+
+[[nodiscard]] Sight sight_in(const ObjectFit& fit, const Eigen::Vector3f& place);
+
+/// @brief Root mean squared distance to the nearest target point, m. What is hidden counts as if
+/// just covered: neither for nor much against a place. Where the sensor saw through a point it is
+/// as bad as can be, and so is a place of which too little is visible.
+/// @param stride every so many points are asked.
+[[nodiscard]] double score_of(const ObjectFit& fit, const Pose& T_target_object, int stride = 1);
+
+/// @brief The score, with what an unexpected place adds, m.
+[[nodiscard]] double rank_of(const ObjectFit& fit, const Pose& T_target_object, double score);
+
+/// @brief Root mean squared distance of the visible points across the target's surface, m.
+[[nodiscard]] double residual_of(const ObjectFit& fit, const Pose& T_target_object);
+
+/// @brief The share of the visible points that are covered; 0 where too few are visible.
+[[nodiscard]] double overlap_of(const ObjectFit& fit, const Pose& T_target_object);
+
+}  // namespace lidar_upsampling

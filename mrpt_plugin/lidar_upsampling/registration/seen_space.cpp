@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the lidar_upsampling authors
+#include "lidar_upsampling/registration/seen_space.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace lidar_upsampling {
+namespace {
+
+constexpr double kDegree = M_PI / 180;
+constexpr float kHighest = static_cast<float>(45 * kDegree);
+constexpr float kTurn = static_cast<float>(2 * M_PI);
+constexpr double kColumn_deg = 0.5;  // wider than any spinning LiDAR's step
+constexpr double kRoom = 1.2;        // so that no row lies between two rings
+constexpr float kMargin_m = 0.5F;    // surfaces are inclined, and objects have depth
+
+}  // namespace
+
+SeenSpace::SeenSpace(const std::vector<Eigen::Vector3f>& points, double vertical_step_deg)
+    : per_row_(static_cast<float>(1 / (kRoom * std::max(0.2, vertical_step_deg) * kDegree))),
+      per_column_(static_cast<float>(1 / (kColumn_deg * kDegree))),
+      rows_(static_cast<int>(2 * kHighest * per_row_) + 1),
+      columns_(static_cast<int>(kTurn * per_column_) + 1),
+      cells_(static_cast<std::size_t>(rows_) * columns_,
+             Reach{std::numeric_limits<float>::infinity(), 0}) {
+  for (const Eigen::Vector3f& point : points) {
+    const int row = row_of(point);
+    if (row < 0) continue;
+    Reach& cell = cells_[static_cast<std::size_t>(row) * columns_ + column_of(point)];
+    const float range = point.norm();
+    cell.nearest = std::min(cell.nearest, range);
+    cell.farthest = std::max(cell.farthest, range);
+  }
+}
+
+int SeenSpace::row_of(const Eigen::Vector3f& place) const {
+  const float elevation = std::atan2(place.z(), place.head<2>().norm());
+  return std::abs(elevation) >= kHighest ? -1 : static_cast<int>((elevation + kHighest) * per_row_);
+}
+
+int SeenSpace::column_of(const Eigen::Vector3f& place) const {
+  const float azimuth = std::atan2(place.y(), place.x()) + 0.5F * kTurn;
+  return std::min(columns_ - 1, static_cast<int>(azimuth * per_column_));
+}
+
+Sight SeenSpace::at(const Eigen::Vector3f& place) const {
+  const int row = row_of(place);
+  if (row < 0) return Sight::open;
+  const int column = column_of(place);
+  const float range = place.norm();
+  int behind = 0, before = 0, beams = 0;
+  for (int step = -1; step <= 1; ++step) {
+    const Reach& cell =
+        cells_[static_cast<std::size_t>(row) * columns_ + (column + step + columns_) % columns_];
+    if (cell.farthest <= 0) continue;
+    ++beams;
+    behind += cell.nearest > range + kMargin_m ? 1 : 0;
+    before += cell.farthest < range - kMargin_m ? 1 : 0;
+  }
+  if (beams < 2) return Sight::open;
+  if (before == beams) return Sight::hidden;
+  return behind == beams ? Sight::seen_through : Sight::open;
+}
+
+}  // namespace lidar_upsampling
