@@ -110,7 +110,9 @@ SensorSettings load_sensor_settings(const CConfigFileBase& source, const std::st
   load_own(source, section, settings);
   settings.into_frames = source.read_bool("global", "use_sensoryframes", false);
   const CConfigFileMemory view = sections_of_the_method(source, section);
-  settings.config.resample = "none";  // unless asked for: it takes more time than a live system has
+  // Unless asked for, as they take more time than a live system on two cores has.
+  settings.config.resample = "none";
+  settings.config.point_tracks.max_points_per_object = 80;
   settings.config.loadFromConfigFile(view, section);
   settings.rig = load_rig_overrides(view);
   if (settings.config.mode != "causal")

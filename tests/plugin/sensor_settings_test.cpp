@@ -60,6 +60,8 @@ void expect_refused(const std::string& more_lines, const std::vector<std::string
 TEST(SensorSettings, points_are_only_moved_unless_more_is_asked_for) {
   EXPECT_EQ(load("").config.resample, "none");
   EXPECT_EQ(load("[UPSAMPLED]\nresample = beam\n").config.resample, "beam");
+  EXPECT_LT(load("").config.point_tracks.max_points_per_object,
+            Config().point_tracks.max_points_per_object);
 }
 
 TEST(SensorSettings, the_sensors_and_the_methods_settings_are_read_from_one_file) {

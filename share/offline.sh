@@ -1,0 +1,34 @@
+#!/usr/bin/env bash
+# What the next real scan is worth: mean errors of moving / static objects in both modes, as a table of share/results.md.
+#   share/offline.sh [folder of 2011_09_26_drive_0052_sync]
+set -euo pipefail
+cd "$(dirname "$0")/.."
+. share/figure.sh
+out=${OUT:-out/results}
+drive=${1:-}
+mkdir -p "$out"
+
+mean() {  # <mode> <measure.sh's arguments ...>
+  SET="resample=none carrier=3drangescan mode=$1" bash share/measure.sh "${@:2}" --no-paper > "$out/offline.txt"
+  printf '%s %s\n' "$(figure "$out/offline.txt" "moving objects, position" ours 2)" \
+    "$(figure "$out/offline.txt" "static objects, position" ours 2)"
+}
+row() {  # <title> <measure.sh's arguments ...>
+  echo "offline: $1 ..." >&2
+  local causal offline
+  causal=$(mean causal "${@:2}") offline=$(mean offline "${@:2}")
+  awk -v title="$1" -v causal="$causal" -v offline="$offline" 'BEGIN {
+    split(causal, c, " "); split(offline, o, " ")
+    printf "| %s | %s | %s | %.2f | %s | %s |\n", title, c[1], o[1], o[1] / c[1], c[2], o[2] }'
+}
+
+echo "| | moving: causal | offline | ratio | static: causal | offline |"
+echo "|---|---|---|---|---|---|"
+if [ -n "$drive" ]; then
+  for keep in 2 3 4; do row "drive 0052, K = $keep" drive "$drive" "$keep"; done
+fi
+for file in config/scenarios/*.ini; do
+  name=$(basename "$file" .ini)
+  case $name in demo | small) continue ;; esac
+  row "$name" scenario "$name"
+done
