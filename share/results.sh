@@ -28,7 +28,9 @@ for file in config/scenarios/*.ini; do
   measure "scenario-$name" "Scenario $name" scenario "$name"
 done
 
-[ -n "${KEEP:-}" ] && [ -s "$out/ablation.md" ] || bash share/ablation.sh "$drive" > "$out/ablation.md"
+for table in ablation offline; do
+  [ -n "${KEEP:-}" ] && [ -s "$out/$table.md" ] || bash "share/$table.sh" "$drive" > "$out/$table.md"
+done
 
 {
   cat share/results-intro.md
@@ -46,6 +48,8 @@ done
   done
   printf '\n## Ablation: moving / static objects, mean position error, metres\n\n'
   cat "$out/ablation.md"
+  printf '\n## With the next scan (`mode=offline`): moving and static objects, mean position error, metres\n\n'
+  cat "$out/offline.md"
   for run in "${runs[@]}"; do
     IFS='|' read -r name title command <<< "$run"
     printf '\n## %s\n\n`%s`\n\n```\n' "$title" "$command"
