@@ -15,12 +15,6 @@ namespace {
 constexpr double kRadian = M_PI / 180;
 constexpr double kMaxRise_m = 0.1;  // between two scans, what a road user may rise or sink
 
-Eigen::Vector3d mean_of(const std::vector<Eigen::Vector3f>& points) {
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  for (const auto& point : points) sum += point.cast<double>();
-  return sum / static_cast<double>(points.size());
-}
-
 /// The points' mean, and that of those farthest to either side as the sensor sees them: an object
 /// that comes out from behind another keeps one end.
 std::array<Eigen::Vector3d, 3> landmarks(const std::vector<Eigen::Vector3f>& points,
@@ -113,6 +107,12 @@ std::optional<KnownMotion> motion_of(const ObjectRegistration& registration,
 }
 
 }  // namespace
+
+Eigen::Vector3d mean_of(const std::vector<Eigen::Vector3f>& points) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (const auto& point : points) sum += point.cast<double>();
+  return sum / std::max<double>(1, static_cast<double>(points.size()));
+}
 
 double evidence_of_motion(const KnownMotion& known) {
   constexpr double kFinest = 0.1;  // m/s

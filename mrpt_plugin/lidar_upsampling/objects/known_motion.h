@@ -30,6 +30,9 @@ struct KnownMotion {
                                  ///< again; in the axes of the frame at rest
 };
 
+/// @return zero of no points.
+[[nodiscard]] Eigen::Vector3d mean_of(const std::vector<Eigen::Vector3f>& points);
+
 /// @brief Of the object moving at all when it was measured: a chi-square, of two degrees of freedom
 /// if it did not.
 [[nodiscard]] double evidence_of_motion(const KnownMotion& known);

@@ -26,12 +26,6 @@ ObjectRegistrationOptions registration_options(bool search) {
   return options;
 }
 
-Eigen::Vector3d mean_of(const std::vector<Eigen::Vector3f>& points) {
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  for (const Eigen::Vector3f& point : points) sum += point.cast<double>();
-  return sum / std::max<double>(1, static_cast<double>(points.size()));
-}
-
 /// The step over ground as a place in the next scan.
 ExpectedPlace place_of(const LevelGaussian& step, const Eigen::Vector3d& centroid,
                        const Pose& T_next_k) {
