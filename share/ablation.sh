@@ -4,9 +4,6 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 . share/figure.sh
-out=${OUT:-out/results}
-drive=${1:-}
-mkdir -p "$out"
 
 ablation_logs=("scenario queue" "scenario turning")
 [ -z "$drive" ] || ablation_logs=("drive $drive 2" "drive $drive 3" "${ablation_logs[@]}")

@@ -4,9 +4,6 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 . share/figure.sh
-out=${OUT:-out/results}
-drive=${1:-}
-mkdir -p "$out"
 
 mean() {  # <mode> <measure.sh's arguments ...>
   SET="resample=none carrier=3drangescan mode=$1" bash share/measure.sh "${@:2}" --no-paper > "$out/offline.txt"
@@ -27,8 +24,6 @@ echo "|---|---|---|---|---|---|"
 if [ -n "$drive" ]; then
   for keep in 2 3 4; do row "drive 0052, K = $keep" drive "$drive" "$keep"; done
 fi
-for file in config/scenarios/*.ini; do
-  name=$(basename "$file" .ini)
-  case $name in demo | small) continue ;; esac
+for name in $(scenarios); do
   row "$name" scenario "$name"
 done

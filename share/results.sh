@@ -5,9 +5,6 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 . share/figure.sh
-out=${OUT:-out/results}
-drive=${1:-}
-mkdir -p "$out"
 runs=()
 
 measure() {  # <name> <title> <command's arguments ...>
@@ -22,9 +19,7 @@ if [ -n "$drive" ]; then
     measure "drive-$keep" "KITTI drive 0052, one scan of $keep kept" drive "$drive" "$keep" --protocol kitti-odometry
   done
 fi
-for file in config/scenarios/*.ini; do
-  name=$(basename "$file" .ini)
-  case $name in demo | small) continue ;; esac
+for name in $(scenarios); do
   measure "scenario-$name" "Scenario $name" scenario "$name"
 done
 
