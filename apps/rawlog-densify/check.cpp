@@ -13,6 +13,7 @@
 #include <set>
 #include <stdexcept>
 
+#include "lidar_upsampling/front_end/pose_input.h"
 #include "lidar_upsampling/io/carriers.h"
 #include "lidar_upsampling/io/images.h"
 #include "lidar_upsampling/io/rawlog_stream.h"
@@ -20,7 +21,6 @@
 #include "lidar_upsampling/scan/sweep.h"
 #include "lidar_upsampling/vision/projection.h"
 #include "pictures.h"
-#include "pose_input.h"
 #include "streams.h"
 
 namespace lidar_upsampling {
@@ -230,7 +230,7 @@ LogCheck check_log(const DensifyJob& job, const std::function<void(double)>& pro
   constexpr double kIndexShare = 0.2;
   LogCheck result;
   result.index = index_log(job.input, [&](double share) { progress(kIndexShare * share); });
-  take_poses_from_file(job, result.index);
+  take_poses_from_file(job.config, job.rig, result.index);
   Checker checker(job, result);
   RawlogReader reader(job.input);
   for (std::size_t i = 0; i < result.index.num_objects; ++i) {

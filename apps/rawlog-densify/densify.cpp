@@ -9,14 +9,13 @@
 #include <vector>
 
 #include "densification.h"
-#include "lidar_upsampling/io/carriers.h"
+#include "lidar_upsampling/front_end/pose_input.h"
+#include "lidar_upsampling/front_end/virtual_observations.h"
 #include "lidar_upsampling/io/external_storage.h"
 #include "lidar_upsampling/io/log_index.h"
 #include "lidar_upsampling/io/rawlog_stream.h"
 #include "lidar_upsampling/io/sensory_frame.h"
-#include "lidar_upsampling/scene/object_scene.h"
 #include "lidar_upsampling/stopwatch.h"
-#include "pose_input.h"
 
 namespace lidar_upsampling {
 namespace {
@@ -49,10 +48,7 @@ struct Neighbours {
 class Insertion {
  public:
   Insertion(const DensifyJob& job, const LogIndex& index, DensifyReport& report)
-      : report_(report),
-        carrier_(carrier_from_string(job.config.carrier)),
-        annotate_(job.config.annotate != 0),
-        run_(job, index, report) {}
+      : report_(report), form_(output_form(job.config)), run_(job, index, report) {}
 
   Neighbours feed(const CObservation::Ptr& observation) {
     Neighbours result;
@@ -72,18 +68,14 @@ class Insertion {
  private:
   std::vector<CObservation::Ptr> out(const VirtualScan& scan) {
     const Timed packing(report_, "packing");
-    auto observation = observation_from_scan(scan.scan, carrier_, run_.last_real().get());
-    if (report_.carrier.empty()) report_.carrier = observation->GetRuntimeClass()->className;
-    std::vector<CObservation::Ptr> observations{observation};
-    if (annotate_)
-      observations.push_back(
-          observation_of_objects(scan, run_.last_real()->sensorLabel + "_OBJECTS"));
+    auto observations = virtual_observations(scan, form_, *run_.last_real());
+    if (report_.carrier.empty())
+      report_.carrier = observations.front()->GetRuntimeClass()->className;
     return observations;
   }
 
   DensifyReport& report_;
-  Carrier carrier_;
-  bool annotate_;
+  OutputForm form_;
   Densification run_;
 };
 
@@ -173,7 +165,7 @@ DensifyReport densify(const DensifyJob& job, const std::function<void(double)>& 
   if (index.corruption && !job.accept_truncated)
     throw std::runtime_error(*index.corruption +
                              "; --accept-truncated densifies what comes before");
-  take_poses_from_file(job, index);
+  take_poses_from_file(job.config, job.rig, index);
   Insertion run(job, index, report);
   if (index.corruption) report.warn(*index.corruption);
 

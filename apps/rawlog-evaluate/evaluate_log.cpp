@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "evaluation.h"
+#include "lidar_upsampling/front_end/pose_input.h"
 #include "lidar_upsampling/io/carriers.h"
 #include "lidar_upsampling/io/images.h"
 #include "lidar_upsampling/io/log_index.h"
@@ -15,7 +16,6 @@
 #include "lidar_upsampling/registration/scan_registration.h"
 #include "lidar_upsampling/se3.h"
 #include "rawlog-densify/densification.h"
-#include "rawlog-densify/pose_input.h"
 #include "scan_feed.h"
 
 namespace lidar_upsampling {
@@ -211,7 +211,7 @@ void feed_entry(const RawlogEntry& entry, Walk& walk) {
 LogResult evaluate_log(const EvaluationJob& job, const std::function<void(double)>& progress) {
   LogIndex input = whole_index(job.input);
   const LogIndex reference = whole_index(job.reference);
-  take_poses_from_file(job.paper, input);
+  take_poses_from_file(job.paper.config, job.paper.rig, input);
   LogResult result;
   result.input = job.input;
   result.reference = job.reference;

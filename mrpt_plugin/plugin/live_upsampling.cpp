@@ -3,6 +3,7 @@
 #include "plugin/live_upsampling.h"
 
 #include <mrpt/obs/CObservationImage.h>
+#include <mrpt/obs/CObservationOdometry.h>
 
 #include <algorithm>
 #include <exception>
@@ -18,12 +19,15 @@ namespace lidar_upsampling {
 using mrpt::obs::CObservation;
 using mrpt::obs::CObservationImage;
 
-LiveUpsampling::LiveUpsampling(const Config& config, const RigOverrides& rig, Messages& messages)
+LiveUpsampling::LiveUpsampling(const Config& config, const RigOverrides& rig, Messages& messages,
+                               const std::vector<PoseSample>& given_poses)
     : config_(config),
       rig_(rig),
       messages_(messages),
       upsampler_(config),
-      carrier_(carrier_from_string(config.carrier)) {
+      form_(output_form(config)),
+      has_given_poses_(!given_poses.empty()) {
+  for (const PoseSample& sample : given_poses) upsampler_.ego_motion().add_pose(sample);
   if (!config.camera_labels.empty()) upsampler_.expect_cameras(config.camera_labels);
 }
 
@@ -35,6 +39,7 @@ std::vector<Emitted> LiveUpsampling::feed(const Arrived& arrived) {
     place(flush());
     out = release();
   }
+  if (arrived.pose_by_actions) take_actions(stamp, *arrived.pose_by_actions);
   held_.push_back({arrived.observation, {}});
   place(work_on(arrived));
   const bool may_wait = arrived.role == Role::image && !arrived.is_late && cameras_.size() > 1;
@@ -96,18 +101,39 @@ std::optional<VirtualScan> LiveUpsampling::insert_image(const Arrived& arrived) 
   return upsampler_.insert_image(image);
 }
 
-// Streams of different labels may use different worlds: the first of a class is the one.
 void LiveUpsampling::learn_ego_motion(const CObservation& observation) {
+  if (!is_listened_to(observation)) return;
   EgoSamples samples;
   samples.add_observation(observation);
-  const auto& label =
-      ego_labels_.emplace(observation.GetRuntimeClass()->className, observation.sensorLabel)
-          .first->second;
-  if (label != observation.sensorLabel) return;
   EgoMotion& ego_motion = upsampler_.ego_motion();
-  for (const PoseSample& sample : samples.poses()) ego_motion.add_pose(sample);
+  if (!has_given_poses_)
+    for (const PoseSample& sample : samples.poses()) ego_motion.add_pose(sample);
   for (const PoseSample& sample : samples.odometry()) ego_motion.add_odometry(sample);
   for (const GnssSample& sample : samples.gnss()) ego_motion.add_gnss(sample);
+}
+
+// Single actions would end the recording for MRPT's readers; of odometry rawlog-grabber makes
+// actions itself where it makes frames.
+void LiveUpsampling::take_actions(Stamp stamp, const Pose& T_world_vehicle) {
+  if (stamp == INVALID_TIMESTAMP) return;
+  auto odometry = mrpt::obs::CObservationOdometry::Create();
+  odometry->sensorLabel = "ACTIONS";
+  odometry->timestamp = stamp;
+  odometry->odometry = mrpt::poses::CPose2D(to_mrpt(T_world_vehicle));
+  held_.push_back({odometry, {}});
+  if (!is_listened_to(*odometry)) return;
+  try {
+    upsampler_.ego_motion().add_odometry({stamp, T_world_vehicle});
+  } catch (const std::exception& error) {
+    messages_.add("actions are not used: " + one_line(error));
+  }
+}
+
+// Streams of different labels may use different worlds: the first of a class is the one.
+bool LiveUpsampling::is_listened_to(const CObservation& observation) {
+  const auto first =
+      ego_labels_.emplace(observation.GetRuntimeClass()->className, observation.sensorLabel).first;
+  return first->second == observation.sensorLabel;
 }
 
 std::optional<VirtualScan> LiveUpsampling::flush() {
@@ -122,14 +148,22 @@ std::optional<VirtualScan> LiveUpsampling::flush() {
 void LiveUpsampling::place(const std::optional<VirtualScan>& scan) {
   if (!scan) return;
   const Stamp stamp = scan->scan.stamp;
-  Emitted emitted{observation_from_scan(scan->scan, carrier_, last_real_.get()), {}};
+  std::vector<Emitted> emitted;
+  try {
+    for (const auto& observation : virtual_observations(*scan, form_, *last_real_))
+      emitted.push_back({observation, {}});
+  } catch (const std::exception& error) {
+    messages_.add("a virtual scan is left out: " + one_line(error));
+    return;
+  }
   const auto arrival = image_arrivals_.find(stamp);
-  emitted.image_arrival =
+  emitted.front().image_arrival =
       arrival == image_arrivals_.end() ? std::chrono::steady_clock::now() : arrival->second;
   const auto before = std::find_if(held_.rbegin(), held_.rend(), [&](const Emitted& other) {
     return other.observation->timestamp <= stamp;
   });
-  held_.insert(before.base(), std::move(emitted));
+  held_.insert(before.base(), std::make_move_iterator(emitted.begin()),
+               std::make_move_iterator(emitted.end()));
 }
 
 std::vector<Emitted> LiveUpsampling::release() {

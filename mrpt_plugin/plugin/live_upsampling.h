@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "lidar_upsampling/io/carriers.h"
+#include "lidar_upsampling/front_end/virtual_observations.h"
 #include "lidar_upsampling/io/rig_overrides.h"
 #include "lidar_upsampling/upsampler.h"
 #include "plugin/messages.h"
@@ -21,12 +21,16 @@
 namespace lidar_upsampling {
 
 /// @brief Drives the upsampler with what comes in live: nothing is known but what has arrived. Real
-/// observations come out as they went in, each virtual scan behind the image it belongs to; while a
-/// virtual scan waits for the images of further cameras, what follows waits too.
+/// observations come out as they went in, each virtual scan behind the image it belongs to, and a
+/// frame's pose by the actions before it, as a CObservationOdometry; while a virtual scan waits for
+/// the images of further cameras, what follows waits too.
 class LiveUpsampling : public Upsampling {
  public:
-  /// @param config, rig, messages must outlive this. @throw as LidarUpsampler does.
-  LiveUpsampling(const Config& config, const RigOverrides& rig, Messages& messages);
+  /// @param config, rig, messages must outlive this.
+  /// @param given_poses take the place of those that come in, unless there are none.
+  /// @throw as LidarUpsampler does.
+  LiveUpsampling(const Config& config, const RigOverrides& rig, Messages& messages,
+                 const std::vector<PoseSample>& given_poses = {});
 
   [[nodiscard]] std::vector<Emitted> feed(const Arrived& arrived) override;
   [[nodiscard]] std::vector<Emitted> finish() override;
@@ -36,6 +40,8 @@ class LiveUpsampling : public Upsampling {
   [[nodiscard]] std::optional<VirtualScan> insert_scan(const mrpt::obs::CObservation::Ptr& real);
   [[nodiscard]] std::optional<VirtualScan> insert_image(const Arrived& arrived);
   void learn_ego_motion(const mrpt::obs::CObservation& observation);
+  void take_actions(Stamp stamp, const Pose& T_world_vehicle);
+  [[nodiscard]] bool is_listened_to(const mrpt::obs::CObservation& observation);
   [[nodiscard]] std::optional<VirtualScan> flush();
   void place(const std::optional<VirtualScan>& scan);
   [[nodiscard]] std::vector<Emitted> release();
@@ -44,7 +50,8 @@ class LiveUpsampling : public Upsampling {
   const RigOverrides& rig_;
   Messages& messages_;
   LidarUpsampler upsampler_;
-  Carrier carrier_;
+  OutputForm form_;
+  bool has_given_poses_;
   mrpt::obs::CObservation::Ptr last_real_;
   std::set<std::string> cameras_;
   std::map<std::string, std::string> ego_labels_;  ///< by class, the one label that is listened to

@@ -3,15 +3,18 @@
 #include "plugin/log_player.h"
 
 #include <mrpt/img/CImage.h>
-#include <mrpt/obs/CSensoryFrame.h>
+#include <mrpt/obs/CActionCollection.h>
+#include <mrpt/obs/CObservationOdometry.h>
 
-#include <algorithm>
+#include <utility>
 
 #include "lidar_upsampling/io/mrpt_errors.h"
 
 namespace lidar_upsampling {
 
+using mrpt::obs::CActionCollection;
 using mrpt::obs::CObservation;
+using mrpt::obs::CSensoryFrame;
 
 LogPlayer::LogPlayer(const std::string& path, double speed, Pipeline& pipeline)
     : path_(path), speed_(speed), pipeline_(pipeline), reader_(path) {
@@ -29,9 +32,10 @@ LogPlayer::~LogPlayer() {
 void LogPlayer::play() {
   try {
     while (const auto entry = reader_.next()) {
-      if (const auto* frame = dynamic_cast<mrpt::obs::CSensoryFrame*>(entry->object.get())) {
-        for (const CObservation::Ptr& observation : *frame)
-          if (!play(observation)) return;
+      if (const auto* actions = dynamic_cast<CActionCollection*>(entry->object.get())) {
+        actions_.add(*actions);
+      } else if (const auto* frame = dynamic_cast<CSensoryFrame*>(entry->object.get())) {
+        if (!play(*frame)) return;
       } else if (!play(std::dynamic_pointer_cast<CObservation>(entry->object))) {
         return;
       }
@@ -42,7 +46,18 @@ void LogPlayer::play() {
   }
 }
 
-bool LogPlayer::play(const CObservation::Ptr& observation) {
+bool LogPlayer::play(const CSensoryFrame& frame) {
+  std::optional<Pose> pose = actions_.T_world_vehicle();
+  if (pose && !actions_count_)
+    actions_count_ = !frame.getObservationByClass<mrpt::obs::CObservationOdometry>();
+  if (!actions_count_.value_or(false)) pose.reset();
+  for (const CObservation::Ptr& observation : frame)
+    if (!play(observation, std::exchange(pose, std::nullopt))) return false;
+  return true;
+}
+
+bool LogPlayer::play(const CObservation::Ptr& observation,
+                     const std::optional<Pose>& pose_by_actions) {
   if (!observation) return true;
   auto time = std::chrono::steady_clock::now();
   const Stamp stamp = observation->timestamp;
@@ -56,7 +71,7 @@ bool LogPlayer::play(const CObservation::Ptr& observation) {
   }
   if (speed_ <= 0) pipeline_.wait_for_room();
   if (stop_.wait_until(time)) return false;
-  pipeline_.push(observation);
+  pipeline_.push(observation, pose_by_actions);
   return true;
 }
 

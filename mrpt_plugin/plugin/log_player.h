@@ -2,10 +2,13 @@
 // Copyright (c) 2026, the lidar_upsampling authors
 #pragma once
 
+#include <mrpt/obs/CSensoryFrame.h>
+
 #include <optional>
 #include <string>
 #include <thread>
 
+#include "lidar_upsampling/io/ego_samples.h"
 #include "lidar_upsampling/io/rawlog_stream.h"
 #include "plugin/pipeline.h"
 #include "plugin/source.h"
@@ -13,7 +16,8 @@
 
 namespace lidar_upsampling {
 
-/// @brief Plays a log's observations; those inside sensory frames one by one, without the actions.
+/// @brief Plays a log's observations; those inside sensory frames one by one, the first of a frame
+/// with the pose that the actions lead to. Actions are passed over if the frames hold odometry too.
 /// At the log's end, or where it is broken, it finishes the pipeline.
 class LogPlayer : public Source {
  public:
@@ -27,12 +31,16 @@ class LogPlayer : public Source {
 
  private:
   void play();
-  [[nodiscard]] bool play(const mrpt::obs::CObservation::Ptr& observation);
+  [[nodiscard]] bool play(const mrpt::obs::CSensoryFrame& frame);
+  [[nodiscard]] bool play(const mrpt::obs::CObservation::Ptr& observation,
+                          const std::optional<Pose>& pose_by_actions = {});
 
   std::string path_;
   double speed_;
   Pipeline& pipeline_;
   RawlogReader reader_;
+  ActionOdometry actions_;
+  std::optional<bool> actions_count_;  ///< as the first frame after an action tells
   std::optional<Stamp> first_stamp_;
   SteadyTime start_;
   StopSignal stop_;

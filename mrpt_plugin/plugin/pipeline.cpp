@@ -33,10 +33,12 @@ Pipeline::~Pipeline() {
   worker_.join();
 }
 
-void Pipeline::push(const CObservation::Ptr& observation) {
+void Pipeline::push(const CObservation::Ptr& observation,
+                    const std::optional<Pose>& pose_by_actions) {
   const std::lock_guard<std::mutex> lock(push_mutex_);
   Arrived arrived;
   arrived.observation = observation;
+  arrived.pose_by_actions = pose_by_actions;
   arrived.role = role_of_(*observation);
   queue_.push(std::move(arrived));
 }

@@ -48,8 +48,10 @@ class Pipeline {
   Pipeline(const Pipeline&) = delete;
   Pipeline& operator=(const Pipeline&) = delete;
 
+  /// @param pose_by_actions see Arrived.
   /// @throw what `role_of` throws; the observation is lost then.
-  void push(const mrpt::obs::CObservation::Ptr& observation);
+  void push(const mrpt::obs::CObservation::Ptr& observation,
+            const std::optional<Pose>& pose_by_actions = {});
   /// Waits until a push makes no work late.
   void wait_for_room() { queue_.wait_for_room(); }
 

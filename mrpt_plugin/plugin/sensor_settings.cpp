@@ -117,6 +117,10 @@ SensorSettings load_sensor_settings(const CConfigFileBase& source, const std::st
   settings.rig = load_rig_overrides(view);
   if (settings.config.mode != "causal")
     fail(section, "mode", "'" + settings.config.mode + "' needs what is yet to come; live: causal");
+  if (settings.rawlog.empty() && !settings.config.pose_file.path.empty())
+    fail("ego_motion", "poses_file",
+         "'" + settings.config.pose_file.path +
+             "' can have no poses of what is yet to happen: it needs a played log, rawlog = ...");
   return settings;
 }
 

@@ -8,6 +8,7 @@
 #include <chrono>
 #include <stdexcept>
 
+#include "lidar_upsampling/front_end/pose_input.h"
 #include "lidar_upsampling/io/external_storage.h"
 #include "lidar_upsampling/io/mrpt_errors.h"
 #include "plugin/live_upsampling.h"
@@ -57,7 +58,8 @@ void UpsampledLidarSensor::initialize() {
     queue.merge_window = std::chrono::duration<double, std::milli>(settings_.merge_window_ms);
   pipeline_ = std::make_unique<Pipeline>(
       queue, [this](const CObservation& observation) { return streams_->role_of(observation); },
-      std::make_unique<LiveUpsampling>(settings_.config, settings_.rig, messages_), messages_);
+      std::make_unique<LiveUpsampling>(settings_.config, settings_.rig, messages_, given_poses()),
+      messages_);
   if (settings_.rawlog.empty()) {
     source_ = std::make_unique<DriverSources>(drivers_, *pipeline_);
   } else {
@@ -65,6 +67,14 @@ void UpsampledLidarSensor::initialize() {
     source_ = std::make_unique<LogPlayer>(settings_.rawlog, settings_.speed, *pipeline_);
   }
   m_state = ssWorking;
+}
+
+// Only a log has stamps that a file can have poses of.
+std::vector<PoseSample> UpsampledLidarSensor::given_poses() const {
+  if (settings_.config.pose_file.path.empty()) return {};
+  LogIndex index = index_log(settings_.rawlog);
+  take_poses_from_file(settings_.config, settings_.rig, index);
+  return std::move(index.poses);
 }
 
 void UpsampledLidarSensor::doProcess() {

@@ -23,7 +23,11 @@ namespace lidar_upsampling {
 
 /// @brief A LiDAR as fast as the camera: owns its sources, a played log or other drivers, and hands
 /// out their observations together with the virtual scans, in time order. Real observations are
-/// never dropped; a virtual scan is, where the work falls behind.
+/// never dropped; a virtual scan is, where the work falls behind. Actions of a played log serve as
+/// ego-motion and come out as CObservationOdometry labelled ACTIONS: rawlog-grabber knows no more
+/// than one action at a time, and makes that of odometry itself where it makes frames. What MRPT's
+/// class cannot hold of them, their uncertainty and what does not lie in the plane, is not
+/// recorded.
 ///
 /// After a log's end, or a driver's failure, doProcess() goes on until the user of the observations
 /// has let go of all of them, and then throws: rawlog-grabber stops at an exception, and would
@@ -49,6 +53,7 @@ class UpsampledLidarSensor : public mrpt::hwdrivers::CGenericSensor,
  private:
   void loadConfig_sensorSpecific(const mrpt::config::CConfigFileBase& source,
                                  const std::string& section) override;
+  [[nodiscard]] std::vector<PoseSample> given_poses() const;
   void hand_out();
   void end(const std::string& reason);
   void append_fillers();

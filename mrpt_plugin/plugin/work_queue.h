@@ -24,6 +24,8 @@ enum class Role { other, scan, image };
 /// A real observation on its way through the sensor.
 struct Arrived {
   mrpt::obs::CObservation::Ptr observation;
+  /// Of a frame's first observation: where the vehicle is by the actions so far (T_world_vehicle).
+  std::optional<Pose> pose_by_actions;
   Role role = Role::other;
   SteadyTime time = std::chrono::steady_clock::now();
   bool is_late = false;  ///< passed on as it is: there is no time left to work on it

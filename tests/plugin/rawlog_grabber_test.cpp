@@ -1,56 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the lidar_upsampling authors
 #include <cstdlib>
-#include <filesystem>
 
-#include "end_to_end/pipeline.h"
 #include "lidar_upsampling/io/images.h"
-
-namespace fs = std::filesystem;
+#include "plugin/recording.h"
 
 namespace lidar_upsampling {
 namespace {
-
-class RawlogGrabber : public testing::Test {
- protected:
-  void SetUp() override {
-    if (run("command -v rawlog-grabber").status != 0)
-      GTEST_SKIP() << "rawlog-grabber is not installed";
-  }
-
-  // The shipped settings with changes, run in the folder; rawlog-grabber's words.
-  [[nodiscard]] std::string grab(const std::string& edits) const {
-    expect_done("sed " + edits + " " CONFIG_FOLDER "/rawlog-grabber-play.ini >" +
-                folder_ / "play.ini");
-    // A key press ends it, which the end of its input counts for: so give it one that stays silent.
-    const ToolResult result = run("cd " + folder_.path().string() +
-                                  " && mkfifo silence && ( timeout 100 rawlog-grabber -p " PLUGIN
-                                  " play.ini <>silence )");
-    EXPECT_EQ(result.status, 0) << result.text;
-    return result.text;
-  }
-
-  [[nodiscard]] std::string recording() const {
-    for (const auto& entry : fs::directory_iterator(folder_.path()))
-      if (entry.path().filename().string().rfind("upsampled_", 0) == 0 &&
-          entry.path().extension() == ".rawlog")
-        return entry.path().string();
-    return {};
-  }
-
-  TestFolder folder_;
-};
-
-void expect_same(const std::vector<Logged>& found, const std::vector<Logged>& expected) {
-  ASSERT_EQ(found.size(), expected.size());
-  for (std::size_t i = 0; i < found.size(); ++i)
-    EXPECT_EQ(found[i].bytes, expected[i].bytes) << i << ": " << found[i].label();
-}
-
-void expect_in_time_order(const std::vector<Logged>& all) {
-  for (std::size_t i = 1; i < all.size(); ++i)
-    EXPECT_LE(all[i - 1].stamp(), all[i].stamp()) << i << ": " << all[i].label();
-}
 
 TEST_F(RawlogGrabber, records_every_real_observation_unchanged_and_a_virtual_scan_per_image) {
   expect_done(std::string(RAWLOG_SIMULATE) +

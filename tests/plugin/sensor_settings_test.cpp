@@ -101,6 +101,13 @@ TEST(SensorSettings, a_mode_that_needs_the_future_is_refused) {
   expect_refused("[UPSAMPLED]\nmode = offline\n", {"[UPSAMPLED]", "mode", "offline", "causal"});
 }
 
+TEST(SensorSettings, poses_of_a_file_are_refused_unless_a_log_is_played) {
+  const std::string poses = "[ego_motion]\nrawlog-grabber-ignore = true\nposes_file = a.tum\n";
+  EXPECT_EQ(load(poses).config.pose_file.path, "a.tum");
+  expect_refused("[UPSAMPLED]\nrawlog =\nsources = A\n" + poses,
+                 {"[ego_motion]", "poses_file", "'a.tum'", "rawlog"});
+}
+
 TEST(SensorSettings, a_log_or_drivers_must_be_named_but_not_both) {
   expect_refused("[UPSAMPLED]\nrawlog =\n", {"rawlog, sources"});
   expect_refused("[UPSAMPLED]\nsources = A\n", {"rawlog, sources"});

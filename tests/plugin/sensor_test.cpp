@@ -1,55 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the lidar_upsampling authors
-#include <mrpt/config/CConfigFileMemory.h>
-
-#include <chrono>
-#include <thread>
-
-#include "end_to_end/pipeline.h"
-#include "plugin/upsampled_lidar_sensor.h"
+#include "plugin/live_run.h"
 
 namespace lidar_upsampling {
 namespace {
 
 using mrpt::obs::CObservation;
-
-constexpr const char* kFiller = "FILLER";
-
-// A sensor, and all that it has handed out.
-struct LiveRun {
-  explicit LiveRun(const std::string& lines, const std::string& sections = {}) {
-    mrpt::config::CConfigFileMemory file;
-    file.setContent("[SENSOR]\ndriver = UpsampledLidarSensor\nprocess_rate = 100\nsensorLabel = " +
-                    std::string(kFiller) + "\n" + lines + "\n" + sections);
-    sensor.setMinLoggingLevel(mrpt::system::LVL_ERROR);
-    sensor.loadConfig(file, "SENSOR");
-    sensor.initialize();
-  }
-
-  void process() {
-    sensor.doProcess();
-    for (const auto& [stamp, object] : sensor.getObservations())
-      all.push_back(std::dynamic_pointer_cast<CObservation>(object));
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));
-  }
-
-  // What it throws at its end.
-  std::string run_to_end() {
-    try {
-      while (true) process();
-    } catch (const std::runtime_error& error) {
-      return error.what();
-    }
-  }
-
-  [[nodiscard]] std::size_t count(const std::string& label) const {
-    return static_cast<std::size_t>(std::count_if(
-        all.begin(), all.end(), [&](const auto& one) { return one->sensorLabel == label; }));
-  }
-
-  UpsampledLidarSensor sensor;
-  std::vector<CObservation::Ptr> all;
-};
 
 bool in_time_order(const std::vector<CObservation::Ptr>& all) {
   return std::is_sorted(all.begin(), all.end(),
@@ -68,10 +24,6 @@ std::vector<Stamp> stamps_of(const std::vector<Logged>& all) {
   stamps.reserve(all.size());
   for (const Logged& logged : all) stamps.push_back(logged.stamp());
   return stamps;
-}
-
-std::string playing(const TestFolder& folder, const std::string& speed) {
-  return "rawlog = " + folder / "in.rawlog" + "\nspeed = " + speed + "\nlinger_s = 0";
 }
 
 constexpr const char* kSecondCamera = R"(

@@ -48,6 +48,15 @@ std::optional<GnssSample> gnss_sample(const mrpt::obs::CObservationGPS& observat
   return sample;
 }
 
+void ActionOdometry::add(const mrpt::obs::CActionCollection& actions) {
+  std::optional<Pose> step;
+  if (const auto planar = actions.getBestMovementEstimation())
+    step = from_mrpt(mrpt::poses::CPose3D(planar->poseChange->getMeanVal()));
+  else if (const auto spatial = actions.getActionByClass<mrpt::obs::CActionRobotMovement3D>())
+    step = from_mrpt(spatial->poseChange.mean);
+  if (step) T_world_vehicle_ = T_world_vehicle_.value_or(Pose::Identity()) * *step;
+}
+
 void EgoSamples::add_observation(const mrpt::obs::CObservation& observation) {
   const std::string& label = observation.sensorLabel;
   if (const auto* const pose =
@@ -64,21 +73,13 @@ void EgoSamples::add_observation(const mrpt::obs::CObservation& observation) {
   }
 }
 
-void EgoSamples::add_actions(const mrpt::obs::CActionCollection& actions) {
-  if (const auto planar = actions.getBestMovementEstimation()) {
-    T_world_vehicle_ =
-        T_world_vehicle_ * from_mrpt(mrpt::poses::CPose3D(planar->poseChange->getMeanVal()));
-    any_action_ = true;
-  } else if (const auto spatial = actions.getActionByClass<mrpt::obs::CActionRobotMovement3D>()) {
-    T_world_vehicle_ = T_world_vehicle_ * from_mrpt(spatial->poseChange.mean);
-    any_action_ = true;
-  }
-}
+void EgoSamples::add_actions(const mrpt::obs::CActionCollection& actions) { actions_.add(actions); }
 
 void EgoSamples::add_frame(const mrpt::obs::CSensoryFrame& frame) {
-  if (!any_action_ || frame.empty()) return;
+  const std::optional<Pose>& T_world_vehicle = actions_.T_world_vehicle();
+  if (!T_world_vehicle || frame.empty()) return;
   const Stamp stamp = (*frame.begin())->timestamp;
-  if (stamp != INVALID_TIMESTAMP) from_actions_.push_back({stamp, T_world_vehicle_});
+  if (stamp != INVALID_TIMESTAMP) from_actions_.push_back({stamp, *T_world_vehicle});
 }
 
 std::vector<PoseSample> EgoSamples::poses() const { return longest(poses_); }

@@ -21,6 +21,18 @@ namespace lidar_upsampling {
 /// sensors' are.
 [[nodiscard]] std::optional<GnssSample> gnss_sample(const mrpt::obs::CObservationGPS& observation);
 
+/// @brief Sums up the vehicle's movements that precede a log's frames.
+class ActionOdometry {
+ public:
+  /// Adds the increment of the best movement estimation.
+  void add(const mrpt::obs::CActionCollection& actions);
+  /// In a world where the first movement began; none before that.
+  [[nodiscard]] const std::optional<Pose>& T_world_vehicle() const { return T_world_vehicle_; }
+
+ private:
+  std::optional<Pose> T_world_vehicle_;
+};
+
 /// @brief Gathers what a log tells of the vehicle's motion. Streams of different labels may use
 /// different worlds, so they are kept apart, and the one with the most samples is given out.
 class EgoSamples {
@@ -40,8 +52,7 @@ class EgoSamples {
   std::map<std::string, std::vector<PoseSample>> odometry_;
   std::map<std::string, std::vector<GnssSample>> gnss_;
   std::vector<PoseSample> from_actions_;
-  Pose T_world_vehicle_ = Pose::Identity();  // by the actions' increments
-  bool any_action_ = false;
+  ActionOdometry actions_;
 };
 
 }  // namespace lidar_upsampling

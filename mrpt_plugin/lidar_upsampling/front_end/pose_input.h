@@ -2,8 +2,9 @@
 // Copyright (c) 2026, the lidar_upsampling authors
 #pragma once
 
-#include "densify.h"
+#include "lidar_upsampling/config.h"
 #include "lidar_upsampling/io/log_index.h"
+#include "lidar_upsampling/io/rig_overrides.h"
 
 namespace lidar_upsampling {
 
@@ -11,6 +12,6 @@ namespace lidar_upsampling {
 /// @param index of the log `index.path`.
 /// @throw std::runtime_error as read_pose_file(); no sensor of that label; poses of another time.
 /// @throw std::invalid_argument the settings want the ego-motion from elsewhere.
-void take_poses_from_file(const DensifyJob& job, LogIndex& index);
+void take_poses_from_file(const Config& config, const RigOverrides& rig, LogIndex& index);
 
 }  // namespace lidar_upsampling

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the lidar_upsampling authors
-#include "pose_input.h"
+#include "lidar_upsampling/front_end/pose_input.h"
 
 #include <mrpt/obs/CSensoryFrame.h>
 
@@ -66,20 +66,20 @@ void check_times(const PoseFileOptions& file, const std::vector<PoseSample>& pos
 
 }  // namespace
 
-void take_poses_from_file(const DensifyJob& job, LogIndex& index) {
-  const PoseFileOptions& file = job.config.pose_file;
+void take_poses_from_file(const Config& config, const RigOverrides& rig, LogIndex& index) {
+  const PoseFileOptions& file = config.pose_file;
   if (file.path.empty()) return;
-  const EgoSource source = job.config.ego_motion.source;
+  const EgoSource source = config.ego_motion.source;
   if (source != EgoSource::automatic && source != EgoSource::poses)
     throw std::invalid_argument(std::string("[ego_motion] source = ") + to_string(source) +
                                 ": a poses_file needs source = poses or auto");
   const auto lidars = index.of_kind(StreamKind::lidar);
-  const StreamInfo* lidar = index.find(job.config.lidar_label, StreamKind::lidar);
+  const StreamInfo* lidar = index.find(config.lidar_label, StreamKind::lidar);
   if (lidar == nullptr && !lidars.empty()) lidar = lidars.front();
   const std::vector<Stamp> scans = lidar == nullptr ? std::vector<Stamp>{} : lidar->stamps;
   const std::string sensor = sensor_of(file, index);
   index.poses = read_pose_file(
-      file, scans, sensor.empty() ? Pose::Identity() : T_vehicle_sensor(index, sensor, job.rig));
+      file, scans, sensor.empty() ? Pose::Identity() : T_vehicle_sensor(index, sensor, rig));
   check_times(file, index.poses, scans);
 }
 
