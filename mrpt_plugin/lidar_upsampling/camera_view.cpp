@@ -22,6 +22,13 @@ Eigen::Vector3d centroid_of(const LidarScan& scan, const std::vector<int>& point
   return sum / std::max<double>(1., static_cast<double>(points.size()));
 }
 
+// What is seen of an object is as large as its points are many and far.
+Place place_of(const KeyScanView& key, const std::vector<int>& points) {
+  const Eigen::Vector3d centroid = centroid_of(key.scan, points);
+  return {key.T_rest_lidar_k * centroid,
+          static_cast<double>(points.size()) * centroid.squaredNorm()};
+}
+
 // The motion since the scan that last showed the object, by registration; what was known before is
 // where it starts.
 void measure_motions(std::vector<Candidate>& candidates, const std::map<int, PastObject>& past,
@@ -48,6 +55,29 @@ void measure_motions(std::vector<Candidate>& candidates, const std::map<int, Pas
   });
 }
 
+// Pieces of a parked one differ from scan to scan, and so does where registration puts them.
+void forget_contradicted(std::vector<Candidate>& candidates, const std::map<int, PastObject>& past,
+                         const KeyScanView& key) {
+  if (key.seen_before == nullptr) return;
+  tbb::parallel_for(std::size_t{0}, candidates.size(), [&](std::size_t i) {
+    Candidate& candidate = candidates[i];
+    const auto found = past.find(candidate.track_id);
+    if (found == past.end() || !candidate.known) return;
+    const PastObject& before = found->second;
+    const Stamp instant = shifted(key.scan.stamp, candidate.time_s);
+    const double dt = seconds_between(before.stamp, instant);
+    if (std::abs(dt - seconds_between(key.stamp_before, key.scan.stamp)) > 0.5 * dt) return;
+    const Pose T_before_k = before.T_rest_lidar.inverse() * key.T_rest_lidar_k;
+    const Eigen::Vector3d step = dt * candidate.known->velocity_at_rest;
+    const Eigen::Vector3d step_k = key.T_rest_lidar_k.linear().transpose() * step;
+    const Eigen::Vector3d step_before = before.T_rest_lidar.linear().transpose() * step;
+    if (was_there_then(points_at(key.scan, candidate.points), step_k.head<2>(), T_before_k,
+                       *key.seen_before) &&
+        was_there_then(before.points, step_before.head<2>(), T_before_k.inverse(), key.seen))
+      candidate.known.reset();
+  });
+}
+
 // Candidates with their points in the scan, their identities and the motion to expect of them.
 std::vector<Candidate> find_candidates(CameraView& view, const Picture& anchor,
                                        const KeyScanView& key, const Pose& T_camera_lidar_a,
@@ -55,22 +85,22 @@ std::vector<Candidate> find_candidates(CameraView& view, const Picture& anchor,
                                        const std::map<int, KnownMotion>& known, Detector& detector,
                                        const Config& config) {
   std::vector<Detection> detections;
-  std::vector<std::optional<Eigen::Vector3d>> centroids;
+  std::vector<std::optional<Place>> places;
   std::vector<std::vector<int>> points;
-  for (Detection& detection :
-       detector.detect({anchor.image, &key.scan, &key.segments, T_camera_lidar_a})) {
+  for (Detection& detection : detector.detect(
+           {anchor.image, &key.scan, &key.segments, T_camera_lidar_a, key.next_is_known})) {
     auto found = detection.points.empty()
                      ? select_object_points(key.scan, visible, key.segments, detection.box,
                                             config.object_points)
                      : std::optional(std::move(detection.points));
     if (!found) continue;
-    centroids.emplace_back(key.T_rest_lidar_k * centroid_of(key.scan, *found));
+    places.emplace_back(place_of(key, *found));
     points.push_back(std::move(*found));
     detection.points.clear();
     detections.push_back(std::move(detection));
   }
 
-  const std::vector<int> ids = view.tracker.update(anchor.instant, detections, centroids);
+  const std::vector<int> ids = view.tracker.update(anchor.instant, detections, places);
   std::vector<Candidate> candidates(detections.size());
   for (std::size_t i = 0; i < candidates.size(); ++i) {
     Candidate& candidate = candidates[i];
@@ -153,6 +183,7 @@ void start_view(CameraView& view, std::shared_ptr<const Picture> anchor, const K
                                     known, detector, config);
   if (config.object_motion.prior.from_scans)
     measure_motions(view.candidates, view.past, key, config.object_motion.prior.acceleration_sigma);
+  if (config.object_motion.prior.from_scans) forget_contradicted(view.candidates, view.past, key);
   for (Candidate& candidate : view.candidates)
     if (candidate.known)
       candidate.rate = rate_over_ground(*candidate.known, key.T_rest_lidar_k.linear().transpose(),

@@ -55,7 +55,11 @@ struct PastObject {
 struct KeyScanView {
   const LidarScan& scan;
   const SceneSegments& segments;
+  const SeenSpace& seen;
   Pose T_rest_lidar_k = Pose::Identity();  ///< lidar frame at k in a frame at rest
+  const SeenSpace* seen_before = nullptr;  ///< by the scan before; null: there was none
+  Stamp stamp_before;
+  bool next_is_known = false;  ///< the scan to come
 };
 
 /// @brief One camera's memory: its last picture, and what is followed on it since the key scan.

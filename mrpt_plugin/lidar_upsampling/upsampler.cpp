@@ -69,9 +69,16 @@ std::optional<VirtualScan> LidarUpsampler::insert_scan(LidarScan scan) {
   if (key_) {
     key->T_rest_lidar_k = key_->T_rest_lidar_k * T_scan_key.inverse();
     scan_period_s_ = seconds_between(key_->scan.stamp, scan.stamp);
+    key->seen_before = std::move(key_->seen);
+    key->stamp_before = key_->scan.stamp;
   }
   key->scan = std::move(scan);
   key_ = std::move(key);
+  {
+    const Stopwatch watch(timing_, "seen space");
+    key_->seen = std::make_unique<const SeenSpace>(key_->scan.points,
+                                                   estimate_vertical_step_deg(key_->scan));
+  }
   if (config_.resample == "beam") {
     const Stopwatch watch(timing_, "beams");
     key_->resampler = std::make_unique<const BeamResampler>(key_->scan, config_.resampling);
@@ -88,7 +95,7 @@ void LidarUpsampler::expect_next(const LidarScan& next) {
   const Stopwatch watch(timing_, "next scan");
   next_ = std::make_unique<NextScan>(NextScan{
       next.stamp, Surface(without_ground(straight, config_.segments.ground)), T_lidar_next_lidar_k,
-      SeenSpace(straight.points, estimate_vertical_step_deg(straight))});
+      SeenSpace(straight.points, estimate_vertical_step_deg(straight)), key_->seen.get()});
 }
 
 std::optional<VirtualScan> LidarUpsampler::insert_image(const CameraImage& image) {
@@ -173,7 +180,9 @@ void LidarUpsampler::start(CameraView& view, const std::shared_ptr<const Picture
   }
   const Stopwatch watch(timing_, "candidates");
   const auto step = ego_motion_.step(key_->scan.stamp, anchor->instant);
-  start_view(view, anchor, {key_->scan, *key_->segments, key_->T_rest_lidar_k},
+  start_view(view, anchor,
+             {key_->scan, *key_->segments, *key_->seen, key_->T_rest_lidar_k,
+              key_->seen_before.get(), key_->stamp_before, next_ != nullptr},
              ego_step(anchor->instant).T_to_from, known_motions_, !step, *detector_, config_);
   // Where neither the next picture nor the next scan tells, this is what there is.
   for (const Candidate& candidate : view.candidates)

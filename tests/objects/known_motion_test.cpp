@@ -4,6 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+
 namespace lidar_upsampling {
 namespace {
 
@@ -49,6 +52,45 @@ TEST(MeasureBetweenScans, no_road_user_jumps_up) {
   EXPECT_FALSE(measured(vehicle(12, 2), now));
 }
 
+// A street of walls 30 m ahead and 15 m to the sides, with what stands in it.
+SeenSpace street_with(const std::vector<Eigen::Vector3f>& object) {
+  constexpr float kColumn = 0.0035F, kRing = 0.007F;
+  std::vector<Eigen::Vector3f> points = object;
+  for (float azimuth = -1; azimuth < 1; azimuth += kColumn)
+    for (float tangent = -0.15F; tangent < 0.1F; tangent += kRing) {
+      const float range = std::min(30 / std::cos(azimuth), 15 / std::abs(std::sin(azimuth)));
+      const Eigen::Vector3f far(range * std::cos(azimuth), range * std::sin(azimuth),
+                                range * tangent);
+      const bool is_hidden = std::any_of(object.begin(), object.end(), [&](const auto& near) {
+        return std::abs(std::atan2(near.y(), near.x()) - azimuth) < kColumn &&
+               std::abs(near.z() / near.template head<2>().norm() - tangent) < kRing;
+      });
+      if (!is_hidden) points.push_back(far);
+    }
+  return {points, 0.4};
+}
+
+bool stood(float before_m, float now_m) {
+  const auto before = vehicle(before_m, 3), now = vehicle(now_m, 3);
+  const Eigen::Vector2d step(1.2, 0);  // as claimed
+  return was_there_then(now, step, Pose::Identity(), street_with(before)) &&
+         was_there_then(before, step, Pose::Identity(), street_with(now));
+}
+
+TEST(WasThereThen, who_is_seen_where_it_was_has_not_moved_whatever_registration_says) {
+  EXPECT_TRUE(stood(12, 12));
+}
+
+TEST(WasThereThen, who_has_left_or_taken_a_place_may_have_moved) {
+  EXPECT_FALSE(stood(12, 13.2F));
+  EXPECT_FALSE(stood(13.2F, 12));
+}
+
+TEST(WasThereThen, a_short_step_cannot_be_told) {
+  const auto object = vehicle(12, 3);
+  EXPECT_FALSE(was_there_then(object, {0.5, 0}, Pose::Identity(), street_with(object)));
+}
+
 KnownMotion velocity(double x, double y, double sigma_x, double sigma_y) {
   KnownMotion known;
   known.velocity_at_rest = {x, y, 0};
@@ -74,6 +116,20 @@ TEST(FusedMotion, hardly_trusts_what_was_long_ago) {
   KnownMotion newer = velocity(0, 0, 0.5, 0.5);
   newer.stamp = shifted(newer.stamp, 2);
   EXPECT_LT(fused(velocity(1, 0, 0.1, 0.1), newer, 3).velocity_at_rest.x(), 0.02);
+}
+
+TEST(EvidenceOfMotion, is_negative_only_where_scans_have_clearly_seen_an_object_stand) {
+  KnownMotion known = velocity(0.05, 0, 0.1, 0.1);
+  known.from_scans = true;
+  EXPECT_LT(evidence_of_motion(known), -5);
+  KnownMotion creeping = velocity(0.7, 0, 0.1, 0.1);
+  creeping.from_scans = true;
+  EXPECT_GT(evidence_of_motion(creeping), 16.8);
+  KnownMotion unclear = velocity(0.05, 0, 0.4, 0.4);
+  unclear.from_scans = true;
+  EXPECT_GE(evidence_of_motion(unclear), 0);
+  known.from_scans = false;
+  EXPECT_GE(evidence_of_motion(known), 0);
 }
 
 TEST(ExpectMotion, is_as_wide_in_each_direction_as_the_velocity_was_unsure) {

@@ -81,6 +81,20 @@ TEST(MeasureToNext, of_two_alike_the_expected_one_is_taken) {
   EXPECT_NEAR(motion->step.mean.x(), 1.2, 0.03);
 }
 
+TEST(MeasureToNext, a_lookalike_that_stood_there_before_is_another_one) {
+  Points both = vehicle(12), neighbour = vehicle(13.2F);
+  both.insert(both.end(), neighbour.begin(), neighbour.end());
+  const LevelGaussian expected{{1.1, 0}, 0.04 * Eigen::Matrix2d::Identity()};
+  const Pose guess = Eigen::Translation3d(1.1, 0, 0) * Pose::Identity();
+  const SoughtObject object{vehicle(12), Stamp{}, {guess}, expected, false};
+  const SeenSpace seen_k(both, kRings_deg);
+  NextScan next = next_scan(both);
+  next.seen_k = &seen_k;
+  EXPECT_FALSE(measure_to_next(object, next));
+  next.seen_k = nullptr;
+  EXPECT_TRUE(measure_to_next(object, next));
+}
+
 TEST(MeasureToNext, what_is_hidden_by_then_does_not_speak_against_a_step) {
   // Of the vehicle's rear all but the left third hides behind a wall.
   Points next;

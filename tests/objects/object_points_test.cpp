@@ -58,7 +58,7 @@ class ObjectPoints : public ::testing::Test {
   }
   void set_up(const std::vector<BoxObject>& objects) {
     objects_ = objects;
-    street_ = make_street(flat, objects);
+    street_ = testing::make_street(testing::flat, objects);
     segments_ = segment_scan(street_.scan);
     visible_ = project_scan(wide_camera().model, forward_camera(), street_.scan.points);
   }
@@ -137,6 +137,43 @@ TEST_F(ObjectPoints, cluster_detector_boxes_cars_and_leaves_walls) {
   }
   input.key_scan = nullptr;
   EXPECT_TRUE(detector->detect(input).empty());
+}
+
+TEST_F(ObjectPoints, what_is_too_small_for_the_picture_is_a_candidate_where_the_next_scan_tells) {
+  set_up({{{25, 3, -1.8}, 4.2, 1.8, 1.5, 0}});
+  CameraImage image;
+  image.camera = wide_camera();
+  image.camera.model.fx = image.camera.model.fy = 100;  // the car is 6 px high
+  DetectorInput input{image, &street_.scan, &segments_, forward_camera()};
+  const auto detector = make_detector({});
+  EXPECT_TRUE(detector->detect(input).empty());
+  input.next_scan_tells = true;
+  EXPECT_EQ(detector->detect(input).size(), 1U);
+}
+
+TEST_F(ObjectPoints, a_car_that_one_ring_of_a_coarse_lidar_shows_low_is_a_candidate) {
+  street_ = testing::make_street(testing::flat, {{{24, 0, -1.8}, 4.2, 1.8, 1.4, 0}}, 64);
+  const auto seen_low = [&](std::size_t i) {
+    const double above = street_.scan.points[i].z() + 1.8;
+    return street_.truth[i] == testing::kOnGround || (above > 0.21 && above < 0.32);
+  };
+  testing::Street coarse;
+  for (std::size_t i = 0; i < street_.scan.size(); ++i) {
+    if (!seen_low(i)) continue;
+    coarse.scan.points.push_back(street_.scan.points[i]);
+    coarse.scan.ring.push_back(street_.scan.ring[i]);
+    coarse.scan.column.push_back(street_.scan.column[i]);
+  }
+  coarse.scan.num_rings = 64;
+  coarse.scan.num_columns = street_.scan.num_columns;
+  SceneSegments segments = segment_scan(coarse.scan, {});
+  CameraImage image;
+  image.camera = wide_camera();
+  const auto detector = make_detector({});
+  const DetectorInput input{image, &coarse.scan, &segments, forward_camera()};
+  EXPECT_TRUE(detector->detect(input).empty());
+  segments.vertical_step_deg = 2;
+  EXPECT_EQ(detector->detect(input).size(), 1U);
 }
 
 }  // namespace

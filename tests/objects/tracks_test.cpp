@@ -7,7 +7,7 @@
 namespace lidar_upsampling {
 namespace {
 
-using Centroids = std::vector<std::optional<Eigen::Vector3d>>;
+using Places = std::vector<std::optional<Place>>;
 
 Stamp at(double seconds) { return shifted(Stamp(), 1000 + seconds); }
 
@@ -19,7 +19,7 @@ TEST(Tracker, an_object_keeps_its_id_and_shows_its_velocity) {
   int next_id = 7;
   Tracker tracker({}, next_id);
   for (int i = 0; i < 5; ++i) {
-    const Eigen::Vector3d place(10 + i, 2, 0);
+    const Place place{Eigen::Vector3d(10 + i, 2, 0)};
     const auto ids = tracker.update(at(0.1 * i), {seen_at(300 + 20 * i)}, {place});
     EXPECT_EQ(ids, std::vector<int>{7});
   }
@@ -30,24 +30,24 @@ TEST(Tracker, an_object_keeps_its_id_and_shows_its_velocity) {
 }
 
 TEST(Tracker, ids_stay_when_objects_cross_on_the_picture) {
-  for (const bool with_centroids : {true, false}) {
+  for (const bool with_places : {true, false}) {
     int next_id = 0;
     Tracker tracker({}, next_id);
     for (int i = 0; i <= 20; ++i) {
       const double to_the_right = 200 + 20. * i;
       const double to_the_left = 610 - 20. * i;
-      Centroids centroids;
-      if (with_centroids) {
-        centroids = {Eigen::Vector3d(10, 5 - 0.5 * i, 0), Eigen::Vector3d(20, -5 + 0.5 * i, 0)};
-      }
+      Places places;
+      if (with_places)
+        places = {Place{Eigen::Vector3d(10, 5 - 0.5 * i, 0)},
+                  Place{Eigen::Vector3d(20, -5 + 0.5 * i, 0)}};
       // Their order in the list changes, too.
       std::vector<Detection> detections{seen_at(to_the_right), seen_at(to_the_left)};
       const bool swapped = i % 2 == 1;
       if (swapped) {
         std::swap(detections[0], detections[1]);
-        if (with_centroids) std::swap(centroids[0], centroids[1]);
+        if (with_places) std::swap(places[0], places[1]);
       }
-      const auto ids = tracker.update(at(0.1 * i), detections, centroids);
+      const auto ids = tracker.update(at(0.1 * i), detections, places);
       EXPECT_EQ(ids, (swapped ? std::vector<int>{1, 0} : std::vector<int>{0, 1})) << "image " << i;
     }
   }
@@ -56,9 +56,19 @@ TEST(Tracker, ids_stay_when_objects_cross_on_the_picture) {
 TEST(Tracker, boxes_on_each_other_far_apart_in_depth_are_two_objects) {
   int next_id = 0;
   Tracker tracker({}, next_id);
-  tracker.update(at(0), {seen_at(300)}, {Eigen::Vector3d(10, 0, 0)});
-  EXPECT_EQ(tracker.update(at(0.1), {seen_at(300)}, {Eigen::Vector3d(30, 0, 0)}),
+  tracker.update(at(0), {seen_at(300)}, {Place{Eigen::Vector3d(10, 0, 0)}});
+  EXPECT_EQ(tracker.update(at(0.1), {seen_at(300)}, {Place{Eigen::Vector3d(30, 0, 0)}}),
             std::vector<int>{1});
+}
+
+TEST(Tracker, a_small_piece_beside_a_vehicle_does_not_take_its_identity) {
+  int next_id = 0;
+  Tracker tracker({}, next_id);
+  tracker.update(at(0), {seen_at(300), seen_at(340)},
+                 {Place{Eigen::Vector3d(10, 0, 0), 80}, Place{Eigen::Vector3d(11, 0, 0), 10}});
+  // The vehicle has come to where the piece was, which is not seen any more.
+  EXPECT_EQ(tracker.update(at(0.1), {seen_at(340)}, {Place{Eigen::Vector3d(11.2, 0, 0), 70}}),
+            std::vector<int>{0});
 }
 
 TEST(Tracker, a_track_survives_a_few_misses_and_no_more) {
@@ -104,10 +114,10 @@ TEST(Tracker, cameras_share_the_counter_of_ids) {
   EXPECT_EQ(right.update(at(0), {seen_at(300)}), std::vector<int>{1});
 }
 
-TEST(Tracker, centroids_of_another_number_than_detections_are_refused) {
+TEST(Tracker, places_of_another_number_than_detections_are_refused) {
   int next_id = 0;
   Tracker tracker({}, next_id);
-  EXPECT_THROW(tracker.update(at(0), {seen_at(300)}, Centroids(2)), std::invalid_argument);
+  EXPECT_THROW(tracker.update(at(0), {seen_at(300)}, Places(2)), std::invalid_argument);
 }
 
 }  // namespace

@@ -16,15 +16,16 @@ constexpr double kDegree = 3.14159265358979323846 / 180;
 
 bool within(double value, double low, double high) { return value >= low && value <= high; }
 
-/// But for where it begins above the ground.
+/// But for where it begins above the ground. What one ring shows reaches up to the next, `ring_m`.
 bool has_size_of_road_user(const ClusterExtent& extent, std::size_t num_points, bool has_ground,
-                           const ClusterDetectorOptions& options) {
+                           double ring_m, const ClusterDetectorOptions& options) {
   if (static_cast<int>(num_points) < options.min_points) return false;
   if (!within(extent.centroid.head<2>().norm(), options.min_range, options.max_range)) return false;
   if (!within(extent.length, options.min_length, options.max_length)) return false;
   if (extent.width > options.max_width) return false;
   if (!has_ground) return within(extent.height(), options.min_height / 2, options.max_height);
-  return within(extent.top, options.min_height, options.max_height);
+  const double top = extent.height() < ring_m / 2 ? extent.top + ring_m : extent.top;
+  return top >= options.min_height && extent.top <= options.max_height;
 }
 
 const char* class_by_size(const ClusterExtent& extent) {
@@ -79,20 +80,22 @@ std::vector<Detection> ClusterDetector::detect(const DetectorInput& input) {
   if (input.key_scan == nullptr || input.segments == nullptr) return {};
   const SceneSegments& segments = *input.segments;
   const bool has_ground = segments.ground.status == GroundStatus::found;
+  const int min_box_size =
+      input.next_scan_tells ? options_.min_box_size_by_scans : options_.min_box_size;
   std::vector<Detection> detections;
   for (std::size_t i = 0; i < segments.clusters.size(); ++i) {
     const auto& cluster = segments.clusters[i];
     const ClusterExtent& extent = segments.extents[i];
-    if (!has_size_of_road_user(extent, cluster.size(), has_ground, options_)) continue;
+    const double ring_m = std::tan(segments.vertical_step_deg * kDegree) * extent.centroid.norm();
+    if (!has_size_of_road_user(extent, cluster.size(), has_ground, ring_m, options_)) continue;
     if ((input.T_camera_lidar * extent.centroid.cast<double>()).z() <= 0) continue;
     const Seen seen = look_at(i, input);
     if (seen.num_points < options_.min_points ||
         seen.num_points < options_.min_visible * static_cast<double>(cluster.size()) ||
-        std::min(seen.box.width(), seen.box.height()) < options_.min_box_size) {
+        std::min(seen.box.width(), seen.box.height()) < min_box_size) {
       continue;
     }
     // The ring below may just have missed it.
-    const double ring_m = std::tan(segments.vertical_step_deg * kDegree) * extent.centroid.norm();
     if (has_ground && extent.bottom > options_.max_bottom + ring_m &&
         !foot_is_hidden(*input.key_scan, segments.ground, cluster)) {
       continue;

@@ -18,6 +18,7 @@ struct DetectorInput {
   const LidarScan* key_scan = nullptr;
   const SceneSegments* segments = nullptr;
   Pose T_camera_lidar = Pose::Identity();  ///< at the image's instant
+  bool next_scan_tells = false;            ///< also of objects that are too small for the picture
 };
 
 /// @brief Finds object candidates on an image, whether they move or not.
@@ -32,14 +33,15 @@ class Detector {
 
 /// Road users by the size of their visible points; an object seen from behind is short.
 struct ClusterDetectorOptions {
-  int min_points = 15;
+  int min_points = 10;
   double min_range = 1, max_range = 70;     ///< m, horizontal, of the centroid
   double min_height = 0.5, max_height = 4;  ///< m, of the highest point above the ground
   double max_bottom =
       1;  ///< m, of the lowest point above the ground, if nothing hides what is below it
   double min_length = 0.3, max_length = 13;  ///< m, the longer side of the footprint
   double max_width = 3.2;                    ///< m, the shorter side
-  int min_box_size = 8;                      ///< px, either side
+  int min_box_size = 8;                      ///< px, either side, of what the picture may tell of
+  int min_box_size_by_scans = 4;             ///< px, where the next scan tells, too
   double min_visible = 0.15;                 ///< share of its points that lie in the picture
 };
 

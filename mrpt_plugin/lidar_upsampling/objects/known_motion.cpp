@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "lidar_upsampling/registration/object_registration.h"
@@ -119,7 +120,14 @@ double evidence_of_motion(const KnownMotion& known) {
   const Eigen::Vector2d velocity = known.velocity_at_rest.head<2>();
   const Eigen::Matrix2d covariance =
       known.velocity_covariance + kFinest * kFinest * Eigen::Matrix2d::Identity();
-  return velocity.dot(covariance.inverse() * velocity);
+  const double evidence = velocity.dot(covariance.inverse() * velocity);
+  // What stood still between two scans does so now, a hundred to one; but it may have crept.
+  constexpr double kCreeping = 0.2;      // m/s
+  constexpr double kSignificant = 5.99;  // one in twenty
+  const double kOdds = 2 * std::log(100.);
+  const bool stood = known.from_scans && evidence < kSignificant &&
+                     known.velocity_covariance.trace() < 2 * kCreeping * kCreeping;
+  return stood ? evidence - kOdds : evidence;
 }
 
 KnownMotion fused(const KnownMotion& older, const KnownMotion& newer, double acceleration_sigma) {
@@ -209,6 +217,28 @@ std::optional<KnownMotion> measure_between_scans(const ObjectScans& scans, Stamp
     registration = register_views(scans, guesses, options);
   }
   return motion_of(registration, scans, stamp_k, R_rest_lidar_k);
+}
+
+bool was_there_then(const std::vector<Eigen::Vector3f>& points, const Eigen::Vector2d& step,
+                    const Pose& T_other_lidar, const SeenSpace& other) {
+  constexpr double kTelling_m = 0.7;  // what SeenSpace can tell a place from its surroundings by
+  constexpr double kLeastShare = 0.15;
+  const double length = step.norm();
+  if (length < kTelling_m || points.empty()) return false;
+  const Eigen::Vector2f ahead = (step / length).cast<float>();
+  const Eigen::Isometry3f T = T_other_lidar.cast<float>();
+  float front = -std::numeric_limits<float>::infinity(), rear = -front;
+  int visible = 0, empty = 0;
+  for (const Eigen::Vector3f& point : points) {
+    front = std::max(front, ahead.dot(point.head<2>()));
+    rear = std::min(rear, ahead.dot(point.head<2>()));
+    const Sight sight = other.at(T * point);
+    visible += sight == Sight::hidden ? 0 : 1;
+    empty += sight == Sight::seen_through ? 1 : 0;
+  }
+  if (2 * visible < static_cast<int>(points.size())) return false;
+  const double newly_taken = std::min(1., length / std::max(0.1F, front - rear));
+  return empty < kLeastShare * newly_taken * visible;
 }
 
 }  // namespace lidar_upsampling

@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "lidar_upsampling/registration/seen_space.h"
 #include "lidar_upsampling/se3.h"
 #include "lidar_upsampling/types.h"
 #include "lidar_upsampling/vision/refine_pose.h"
@@ -34,7 +35,7 @@ struct KnownMotion {
 [[nodiscard]] Eigen::Vector3d mean_of(const std::vector<Eigen::Vector3f>& points);
 
 /// @brief Of the object moving at all when it was measured: a chi-square, of two degrees of freedom
-/// if it did not.
+/// if it did not. Negative, by the odds, where two scans have clearly seen it stand.
 [[nodiscard]] double evidence_of_motion(const KnownMotion& known);
 
 /// @brief Two measurements of one velocity, each weighted by its covariance; `newer` alone where
@@ -102,5 +103,14 @@ struct ObjectScans {
 /// clear.
 [[nodiscard]] std::optional<KnownMotion> measure_between_scans(
     const ObjectScans& scans, Stamp stamp_k, const Eigen::Matrix3d& R_rest_lidar_k);
+
+/// @brief Whether another scan saw an object where this one does, so that it cannot have moved in
+/// between: hardly any of the places that it would have left or taken was seen empty then.
+/// @param points the object's, in their scan's frame.
+/// @param step over ground, level, m, either way; one too short to tell is no contradiction.
+/// @param T_other_lidar ego-motion to the other scan.
+[[nodiscard]] bool was_there_then(const std::vector<Eigen::Vector3f>& points,
+                                  const Eigen::Vector2d& step, const Pose& T_other_lidar,
+                                  const SeenSpace& other);
 
 }  // namespace lidar_upsampling

@@ -35,6 +35,19 @@ ExpectedPlace place_of(const LevelGaussian& step, const Eigen::Vector3d& centroi
   return {(T_next_k * at).head<2>(), turn * step.covariance * turn.transpose()};
 }
 
+/// Where something stood before, while the object seems to be where it was.
+bool is_lookalike(const SoughtObject& object, const ObjectRegistration& found,
+                  const Eigen::Vector2d& step, const NextScan& next) {
+  const Pose& T_next_k = next.T_lidar_next_lidar_k;
+  if (next.seen_k == nullptr || !was_there_then(object.points, step, T_next_k, next.seen))
+    return false;
+  std::vector<Eigen::Vector3f> there;
+  for (const Eigen::Vector3f& point : object.points)
+    there.emplace_back(found.T_target_object.cast<float>() * point);
+  const Eigen::Matrix2d turn = T_next_k.linear().topLeftCorner<2, 2>();
+  return was_there_then(there, turn * step, T_next_k.inverse(), *next.seen_k);
+}
+
 }  // namespace
 
 std::optional<MotionToNext> measure_to_next(const SoughtObject& object, const NextScan& next) {
@@ -66,6 +79,7 @@ std::optional<MotionToNext> measure_to_next(const SoughtObject& object, const Ne
   const bool is_seen =
       found.status == RegistrationStatus::reliable || found.status == RegistrationStatus::ambiguous;
   if (!is_seen || rise > kMaxRise_m || disagreement(motion.step, expected) > kImprobable) return {};
+  if (is_lookalike(object, found, motion.step.mean, next)) return {};
   return motion;
 }
 

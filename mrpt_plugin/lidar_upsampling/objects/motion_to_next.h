@@ -19,6 +19,7 @@ struct NextScan {
   Surface surface;                               ///< without the ground, lidar frame at `stamp`
   Pose T_lidar_next_lidar_k = Pose::Identity();  ///< ego-motion
   SeenSpace seen;                                ///< lidar frame at `stamp`
+  const SeenSpace* seen_k = nullptr;             ///< by the key scan; null: not asked
 };
 
 /// An object of the key scan that is looked for in the next one.
@@ -39,7 +40,8 @@ struct MotionToNext {
 };
 
 /// @brief Registers an object's points on the next scan, at rest and from each guess.
-/// @return none where the next scan shows too little of it, or only far from where it is expected.
+/// @return none where the next scan shows too little of it, or only far from where it is expected
+/// or where something stood before, while it seems to be at its old place still: a lookalike.
 [[nodiscard]] std::optional<MotionToNext> measure_to_next(const SoughtObject& object,
                                                           const NextScan& next);
 

@@ -3,6 +3,7 @@
 #include "lidar_upsampling/objects/tracks.h"
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 #include "lidar_upsampling/objects/assignment.h"
@@ -10,7 +11,7 @@
 namespace lidar_upsampling {
 namespace {
 
-using Centroid = std::optional<Eigen::Vector3d>;
+using MaybePlace = std::optional<Place>;
 
 constexpr double kForbidden = 1e3;
 constexpr double kSmoothing = 0.5;  ///< weight of the newest rate
@@ -22,17 +23,17 @@ TrackPrediction predict(const Track& track, Stamp stamp) {
   const Eigen::Vector4d moved = sides(track.box) + dt * track.box_rate;
   TrackPrediction prediction{{moved[0], moved[1], moved[2], moved[3]}, std::nullopt};
   if (prediction.box.area() <= 0) prediction.box = track.box;
-  if (track.centroid) prediction.centroid = *track.centroid + dt * track.velocity;
+  if (track.place) prediction.centroid = track.place->centroid + dt * track.velocity;
   return prediction;
 }
 
 /// 0 at the predicted place to 1 at the gate; with both places known the scene decides who may be
 /// whom, for on the picture objects cross without meeting.
-double place_cost(const TrackPrediction& predicted, const Box2d& box, const Centroid& centroid,
+double place_cost(const TrackPrediction& predicted, const Box2d& box, const MaybePlace& place,
                   double gate, double min_overlap) {
   const double apart = 1 - intersection_over_union(predicted.box, box);
-  if (predicted.centroid && centroid) {
-    const double distance = (*predicted.centroid - *centroid).norm();
+  if (predicted.centroid && place) {
+    const double distance = (*predicted.centroid - place->centroid).norm();
     return distance > gate ? kForbidden : 0.5 * (apart + distance / gate);
   }
   return apart > 1 - min_overlap ? kForbidden : apart;
@@ -46,17 +47,23 @@ double identity_cost(const Track& track, const Detection& detection, double clas
   return track.class_name == detection.class_name ? 0 : class_change_cost;
 }
 
-void follow(Track& track, Stamp stamp, const Detection& detection, const Centroid& centroid) {
+// A piece of a vehicle beside it is not that vehicle.
+double size_cost(const MaybePlace& before, const MaybePlace& now, double size_change_cost) {
+  if (!before || !now || before->size <= 0 || now->size <= 0) return 0;
+  return size_change_cost * std::abs(std::log2(now->size / before->size));
+}
+
+void follow(Track& track, Stamp stamp, const Detection& detection, const MaybePlace& place) {
   const double dt = seconds_between(track.stamp, stamp);
   if (dt > 0) {
     const double weight = track.age == 1 ? 1 : kSmoothing;
     track.box_rate += weight * ((sides(detection.box) - sides(track.box)) / dt - track.box_rate);
-    if (track.centroid && centroid) {
-      track.velocity += weight * ((*centroid - *track.centroid) / dt - track.velocity);
+    if (track.place && place) {
+      track.velocity += weight * ((place->centroid - track.place->centroid) / dt - track.velocity);
     }
   }
-  if (centroid) track.centroid = centroid;
-  if (!centroid && track.centroid) *track.centroid += dt * track.velocity;
+  if (place) track.place = place;
+  if (!place && track.place) track.place->centroid += dt * track.velocity;
   track.box = detection.box;
   track.class_name = detection.class_name;
   track.stamp = stamp;
@@ -64,14 +71,14 @@ void follow(Track& track, Stamp stamp, const Detection& detection, const Centroi
   ++track.age;
 }
 
-Track born(int id, Stamp stamp, const Detection& detection, const Centroid& centroid) {
+Track born(int id, Stamp stamp, const Detection& detection, const MaybePlace& place) {
   Track track;
   track.id = id;
   track.external_id = detection.external_track;
   track.class_name = detection.class_name;
   track.stamp = stamp;
   track.box = detection.box;
-  track.centroid = centroid;
+  track.place = place;
   return track;
 }
 
@@ -85,15 +92,13 @@ double intersection_over_union(const Box2d& a, const Box2d& b) {
 }
 
 std::vector<int> Tracker::update(Stamp stamp, const std::vector<Detection>& detections,
-                                 const std::vector<std::optional<Eigen::Vector3d>>& centroids,
+                                 const std::vector<std::optional<Place>>& places,
                                  const std::map<int, TrackPrediction>& predictions) {
-  if (!centroids.empty() && centroids.size() != detections.size()) {
-    throw std::invalid_argument("Tracker: " + std::to_string(centroids.size()) + " centroids for " +
+  if (!places.empty() && places.size() != detections.size()) {
+    throw std::invalid_argument("Tracker: " + std::to_string(places.size()) + " places for " +
                                 std::to_string(detections.size()) + " detections");
   }
-  const auto centroid_of = [&](std::size_t i) {
-    return centroids.empty() ? Centroid() : centroids[i];
-  };
+  const auto place_of = [&](std::size_t i) { return places.empty() ? MaybePlace() : places[i]; };
 
   Eigen::MatrixXd cost(detections.size(), tracks_.size());
   for (std::size_t column = 0; column < tracks_.size(); ++column) {
@@ -106,7 +111,8 @@ std::vector<int> Tracker::update(Stamp stamp, const std::vector<Detection>& dete
     for (std::size_t row = 0; row < detections.size(); ++row) {
       cost(row, column) =
           identity_cost(track, detections[row], options_.class_change_cost) +
-          place_cost(predicted, detections[row].box, centroid_of(row), gate, options_.min_overlap);
+          size_cost(track.place, place_of(row), options_.size_change_cost) +
+          place_cost(predicted, detections[row].box, place_of(row), gate, options_.min_overlap);
     }
   }
 
@@ -115,11 +121,11 @@ std::vector<int> Tracker::update(Stamp stamp, const std::vector<Detection>& dete
   std::vector<int> ids;
   for (std::size_t row = 0; row < detections.size(); ++row) {
     if (assigned[row] >= 0) {
-      follow(tracks_[assigned[row]], stamp, detections[row], centroid_of(row));
+      follow(tracks_[assigned[row]], stamp, detections[row], place_of(row));
       ids.push_back(tracks_[assigned[row]].id);
     } else {
       ids.push_back((*next_id_)++);
-      tracks_.push_back(born(ids.back(), stamp, detections[row], centroid_of(row)));
+      tracks_.push_back(born(ids.back(), stamp, detections[row], place_of(row)));
     }
   }
   const auto lost = [&](const Track& track) { return track.misses > options_.max_misses; };

@@ -16,7 +16,14 @@ struct TrackerOptions {
   double max_distance = 2;          ///< m, from the predicted centroid...
   double max_acceleration = 8;      ///< m/s^2, ...plus what this adds since the last sight
   double class_change_cost = 0.25;  ///< added to a cost of 0 (same place) to 1
+  double size_change_cost = 0.25;   ///< likewise, each time the size seen is doubled or halved
   int max_misses = 3;               ///< images in a row without a detection
+};
+
+/// Where the scan shows an object, in the caller's frame at rest.
+struct Place {
+  Eigen::Vector3d centroid;
+  double size = 0;  ///< of what is seen, in any unit that goes with its area; 0: unknown
 };
 
 /// An object over time, on one camera. Centroid and velocity are in the caller's frame at rest.
@@ -26,7 +33,7 @@ struct Track {
   std::string class_name;
   Stamp stamp;  ///< of its last detection
   Box2d box;    ///< at `stamp`
-  std::optional<Eigen::Vector3d> centroid;
+  std::optional<Place> place;
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  ///< m/s
   Eigen::Vector4d box_rate = Eigen::Vector4d::Zero();  ///< px/s of left, top, right, bottom
   int age = 1;                                         ///< detections so far
@@ -48,12 +55,12 @@ class Tracker {
   /// @param next_id counter of track ids, shared by the trackers of all cameras; it outlives them.
   Tracker(const TrackerOptions& options, int& next_id) : options_(options), next_id_(&next_id) {}
 
-  /// @param centroids one per detection, or empty: its points' mean, where known.
+  /// @param places one per detection, or empty: that of its points, where known.
   /// @param predictions by track id; tracks without one move at constant velocity.
   /// @return the track id of each detection, new ones included.
-  /// @throw std::invalid_argument as many centroids as detections, or none, were expected.
+  /// @throw std::invalid_argument as many places as detections, or none, were expected.
   std::vector<int> update(Stamp stamp, const std::vector<Detection>& detections,
-                          const std::vector<std::optional<Eigen::Vector3d>>& centroids = {},
+                          const std::vector<std::optional<Place>>& places = {},
                           const std::map<int, TrackPrediction>& predictions = {});
 
   /// Alive tracks, by id.
