@@ -181,9 +181,10 @@ void start_view(CameraView& view, std::shared_ptr<const Picture> anchor, const K
                        [&] { cv::cornerMinEigenVal(anchor->image.gray, texture, 5); });
   view.candidates = find_candidates(view, *anchor, key, T_camera_lidar_a, visible_points(anchored),
                                     known, detector, config);
-  if (config.object_motion.prior.from_scans)
+  if (config.object_motion.prior.from_scans) {
     measure_motions(view.candidates, view.past, key, config.object_motion.prior.acceleration_sigma);
-  if (config.object_motion.prior.from_scans) forget_contradicted(view.candidates, view.past, key);
+    forget_contradicted(view.candidates, view.past, key);
+  }
   for (Candidate& candidate : view.candidates)
     if (candidate.known)
       candidate.rate = rate_over_ground(*candidate.known, key.T_rest_lidar_k.linear().transpose(),
