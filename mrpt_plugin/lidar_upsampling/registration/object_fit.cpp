@@ -67,6 +67,29 @@ double residual_of(const ObjectFit& fit, const Pose& T_target_object) {
   return std::sqrt(sum / std::max(1, count));
 }
 
+Sampling sampling_under(const ObjectFit& fit, const Pose& T_target_object) {
+  const Eigen::Isometry3f T = T_target_object.cast<float>();
+  const auto reach = static_cast<float>(std::pow(fit.options.overlap_distance_m, 2));
+  Eigen::Matrix2d all = 1e-9 * Eigen::Matrix2d::Identity(), along = Eigen::Matrix2d::Zero();
+  std::vector<float> spacings;
+  for (const Eigen::Vector3f& point : fit.points) {
+    const Eigen::Vector3f place = T * point;
+    if (sight_in(fit, place) == Sight::hidden) continue;
+    const auto nearest = fit.target.nearest(place, reach);
+    if (nearest.index < 0) continue;
+    spacings.push_back(fit.target.spacing(nearest.index));
+    const Eigen::Vector3d normal = fit.target.normal(nearest.index).cast<double>();
+    const Eigen::Matrix2d across = (normal * normal.transpose()).topLeftCorner<2, 2>();
+    const double weight = normal.isZero() ? 1 : fit.options.point_weight;
+    along += weight * (Eigen::Matrix2d::Identity() - across);
+    all += weight * (Eigen::Matrix2d::Identity() - across) + across;
+  }
+  if (spacings.empty()) return {};
+  const auto middle = spacings.begin() + static_cast<std::ptrdiff_t>(spacings.size() / 2);
+  std::nth_element(spacings.begin(), middle, spacings.end());
+  return {*middle, all.inverse() * along};
+}
+
 double overlap_of(const ObjectFit& fit, const Pose& T_target_object) {
   const Eigen::Isometry3f T = T_target_object.cast<float>();
   const auto reach = static_cast<float>(fit.options.overlap_distance_m);

@@ -36,6 +36,16 @@ constexpr double kScoreCut = 0.5;
 /// @brief Root mean squared distance of the visible points across the target's surface, m.
 [[nodiscard]] double residual_of(const ObjectFit& fit, const Pose& T_target_object);
 
+/// How the target's points lie under an object.
+struct Sampling {
+  double spacing_m = 0;  ///< median distance to the next one
+  Eigen::Matrix2d pull =
+      Eigen::Matrix2d::Zero();  ///< level: of a common shift of all matches along their surfaces,
+                                ///< what the answer follows
+};
+
+[[nodiscard]] Sampling sampling_under(const ObjectFit& fit, const Pose& T_target_object);
+
 /// @brief The share of the visible points that are covered; 0 where too few are visible.
 [[nodiscard]] double overlap_of(const ObjectFit& fit, const Pose& T_target_object);
 

@@ -153,22 +153,28 @@ struct Ambiguity {
 };
 
 /// A start that comes back part of the way speaks of a weak pull there, one that stays of none.
+/// Points lock into one another's pattern: the start is more than half a step of it away, and
+/// within a step they may lie anyhow.
 Ambiguity ambiguity_of(const ObjectFit& problem, const Candidate& best) {
-  constexpr double kShift = 0.2;
-  constexpr double kStop = 0.01 * kShift;  // finer would tell nothing of who comes back
-  constexpr std::array<std::array<double, 2>, 4> kShifts{
-      {{kShift, 0}, {-kShift, 0}, {0, kShift}, {0, -kShift}}};
+  constexpr double kShift = 0.2, kMaxShift = 0.6;
+  const Sampling sampling = sampling_under(problem, best.T);
+  const double shift_m = std::clamp(0.6 * sampling.spacing_m, kShift, kMaxShift);
+  const double stop = 0.01 * shift_m;  // finer would tell nothing of who comes back
+  const std::array<std::array<double, 2>, 4> shifts{
+      {{shift_m, 0}, {-shift_m, 0}, {0, shift_m}, {0, -shift_m}}};
   Ambiguity result;
-  for (const auto& shift : kShifts) {
-    const Candidate again = converge(problem, shifted_by(best.T, shift[0], shift[1]), kStop);
+  for (const auto& shift : shifts) {
+    const Candidate again = converge(problem, shifted_by(best.T, shift[0], shift[1]), stop);
     if (again.score < 1.15 * best.score + 0.005) {
       const Eigen::Vector3d astray = again.T * problem.centroid - best.T * problem.centroid;
       result.spread = std::max(result.spread, astray.norm());
-      const double pull = std::max(0.1, 1 - astray.head<2>().norm() / kShift);
+      const double pull = std::max(0.1, 1 - astray.head<2>().norm() / shift_m);
       const Eigen::Vector2d deviation = astray.head<2>() / pull;
       result.slack += 0.5 * deviation * deviation.transpose();  // every axis is tried both ways
     }
   }
+  const double sq_phase = sampling.spacing_m * sampling.spacing_m / 12;
+  if (std::isfinite(sq_phase)) result.slack += sq_phase * sampling.pull * sampling.pull.transpose();
   return result;
 }
 

@@ -144,4 +144,11 @@ Eigen::Vector3f Surface::normal(int point) const {
   return normal;
 }
 
+float Surface::spacing(int point) const {
+  std::vector<PointIndex::Neighbor> neighbors;
+  index_.nearest(points()[point], 2, neighbors);
+  return neighbors.size() < 2 ? std::numeric_limits<float>::infinity()
+                              : std::sqrt(neighbors[1].sq_distance);
+}
+
 }  // namespace lidar_upsampling

@@ -39,6 +39,8 @@ class Surface {
   }
   /// Unit length; zero where the neighbours form no plane.
   [[nodiscard]] Eigen::Vector3f normal(int point) const;
+  /// m, to the nearest other point; infinite where there is none.
+  [[nodiscard]] float spacing(int point) const;
 
  private:
   struct Known;  // normals so far
