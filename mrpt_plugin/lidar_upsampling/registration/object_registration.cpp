@@ -72,7 +72,9 @@ void add_level(const ObjectFit& problem, const Pose& T, Matrix6d& H, Twist& b) {
   const Eigen::AngleAxisd turned(T.linear() * problem.T_level.linear().transpose());
   const Eigen::Vector3d tilt = turned.angle() * turned.axis();
   const double rise = (T * problem.centroid - problem.T_level * problem.centroid).z();
-  const auto weight = [](double sigma) { return std::pow(kResidualSigma / sigma, 2); };
+  // Neighbouring points err alike: ten weigh as one.
+  const double crowd = std::max(1., 0.1 * static_cast<double>(problem.points.size()));
+  const auto weight = [&](double sigma) { return crowd * std::pow(kResidualSigma / sigma, 2); };
   const double tilt_weight = weight(problem.options.tilt_sigma_rad);
   for (int axis = 0; axis < 2; ++axis) {
     H(axis, axis) += tilt_weight;
