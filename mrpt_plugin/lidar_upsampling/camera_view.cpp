@@ -71,9 +71,12 @@ void forget_contradicted(std::vector<Candidate>& candidates, const std::map<int,
     const Eigen::Vector3d step = dt * candidate.known->velocity_at_rest;
     const Eigen::Vector3d step_k = key.T_rest_lidar_k.linear().transpose() * step;
     const Eigen::Vector3d step_before = before.T_rest_lidar.linear().transpose() * step;
-    if (was_there_then(points_at(key.scan, candidate.points), step_k.head<2>(), T_before_k,
+    const auto points = points_at(key.scan, candidate.points);
+    const bool is_whole = !is_proven(candidate);
+    if (was_there_then({points, key.seen, is_whole}, step_k.head<2>(), T_before_k,
                        *key.seen_before) &&
-        was_there_then(before.points, step_before.head<2>(), T_before_k.inverse(), key.seen))
+        was_there_then({before.points, *key.seen_before, is_whole}, -step_before.head<2>(),
+                       T_before_k.inverse(), key.seen))
       candidate.known.reset();
   });
 }
@@ -112,6 +115,8 @@ std::vector<Candidate> find_candidates(CameraView& view, const Picture& anchor,
       candidate.time_s = mean_time(key.scan.time_s, candidate.points);
     if (const auto motion = known.find(ids[i]); motion != known.end())
       candidate.known = motion->second;
+    if (const auto past = view.past.find(ids[i]); past != view.past.end())
+      candidate.scans_moving = past->second.scans_moving;
   }
   return candidates;
 }
@@ -120,13 +125,18 @@ std::vector<Candidate> find_candidates(CameraView& view, const Picture& anchor,
 void remember(std::map<int, PastObject>& past, const KeyScanView& key,
               const std::vector<Candidate>& candidates) {
   constexpr double kForgetAfter_s = 0.7;
+  constexpr double kSignificant = 13.8;  // chi-square of two degrees of freedom, one in a thousand
   for (auto object = past.begin(); object != past.end();)
     object = seconds_between(object->second.stamp, key.scan.stamp) > kForgetAfter_s
                  ? past.erase(object)
                  : std::next(object);
-  for (const Candidate& candidate : candidates)
+  for (const Candidate& candidate : candidates) {
+    const auto& known = candidate.known;
+    const bool moves = known && evidence_of_motion(*known) > kSignificant;
     past[candidate.track_id] = {shifted(key.scan.stamp, candidate.time_s), key.T_rest_lidar_k,
-                                points_at(key.scan, candidate.points)};
+                                points_at(key.scan, candidate.points),
+                                moves ? candidate.scans_moving + (known->from_scans ? 1 : 0) : 0};
+  }
 }
 
 void add_static_points(PointTracks& tracks, const AnchoredScan& anchored,

@@ -33,6 +33,7 @@ struct Candidate {
   std::vector<int> points;  ///< indices into the key scan, followed or not
   Eigen::Vector3d centroid = Eigen::Vector3d::Zero();  ///< lidar frame at k
   double time_s = 0;                 ///< of its points' own measurement, from the key scan's stamp
+  int scans_moving = 0;              ///< as PastObject has it, of the scan before
   std::optional<KnownMotion> known;  ///< measured before the key scan's first image
   std::optional<KnownMotion> seen;   ///< on the last image since the key scan that told it
   std::optional<MotionToNext> to_next;  ///< where the next scan is known and shows it
@@ -49,7 +50,14 @@ struct PastObject {
   Stamp stamp;
   Pose T_rest_lidar;
   std::vector<Eigen::Vector3f> points;  ///< lidar frame then
+  int scans_moving = 0;                 ///< in a row that have told it to move
 };
+
+/// @brief Whether an object has been seen to move for long enough to be one that is partly hidden,
+/// where it seems not to have.
+[[nodiscard]] inline bool is_proven(const Candidate& candidate) {
+  return candidate.scans_moving > 1;
+}
 
 /// The key scan as the steps of every camera need it.
 struct KeyScanView {

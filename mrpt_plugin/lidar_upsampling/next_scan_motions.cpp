@@ -44,6 +44,7 @@ SoughtObject sought(const Candidate& candidate, const Question& question, const 
                       shifted(key_scan.stamp, candidate.time_s),
                       {},
                       step_at(travel, dt_next)};
+  object.is_whole = !is_proven(candidate);
   if (picture_tells)
     object.expected_step = extrapolated(question.motion, question.query, dt_next, options);
   object.search = !picture_tells || largest_sigma(object.expected_step.covariance) > kGuessReach_m;

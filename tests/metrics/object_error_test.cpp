@@ -107,6 +107,24 @@ TEST(ObjectRegistration, says_so_when_a_wall_slides_on_itself) {
   EXPECT_EQ(found.status, RegistrationStatus::ambiguous);
 }
 
+TEST(ObjectRegistration, does_not_take_the_pattern_of_the_points_for_the_place_of_a_side) {
+  // Two rings on a long side: its points lie at the sensor's azimuths, wherever it is.
+  const auto side = [](float from_m) {
+    std::vector<Eigen::Vector3f> points;
+    for (const float z : {-0.6F, 0.6F})
+      for (float x = 20; x < 40; x += 0.5F)
+        if (x >= from_m) points.emplace_back(x, 9, z);
+    return points;
+  };
+  ObjectRegistrationOptions options;
+  options.min_points = 10;
+  options.search_m = 0;
+  const auto found = register_object(side(34.8F), Surface(side(34)), {Pose::Identity()}, options);
+  ASSERT_NE(found.status, RegistrationStatus::too_few_points);
+  const double off = found.T_target_object.translation().x() + 0.8;
+  EXPECT_LT(off * off, 4 * found.slack(0, 0));
+}
+
 TEST(ObjectRegistration, refuses_a_handful_of_points_and_no_guess) {
   const Scene scene(kOncomingK, kOncomingT);
   const Surface surface = Surface(scene.reference.points);

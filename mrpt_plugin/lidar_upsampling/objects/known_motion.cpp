@@ -107,6 +107,20 @@ std::optional<KnownMotion> motion_of(const ObjectRegistration& registration,
   return known;
 }
 
+struct Extent {
+  float front = -std::numeric_limits<float>::infinity();     ///< farthest ahead
+  float nearest_m = std::numeric_limits<float>::infinity();  ///< from the sensor
+};
+
+Extent extent_of(const std::vector<Eigen::Vector3f>& points, const Eigen::Vector3f& ahead) {
+  Extent extent;
+  for (const Eigen::Vector3f& point : points) {
+    extent.front = std::max(extent.front, ahead.dot(point));
+    extent.nearest_m = std::min(extent.nearest_m, point.norm());
+  }
+  return extent;
+}
+
 }  // namespace
 
 Eigen::Vector3d mean_of(const std::vector<Eigen::Vector3f>& points) {
@@ -219,26 +233,30 @@ std::optional<KnownMotion> measure_between_scans(const ObjectScans& scans, Stamp
   return motion_of(registration, scans, stamp_k, R_rest_lidar_k);
 }
 
-bool was_there_then(const std::vector<Eigen::Vector3f>& points, const Eigen::Vector2d& step,
+bool was_there_then(const ObjectSight& object, const Eigen::Vector2d& step,
                     const Pose& T_other_lidar, const SeenSpace& other) {
   constexpr double kTelling_m = 0.7;  // what SeenSpace can tell a place from its surroundings by
+  constexpr int kFewest = 3;
   constexpr double kLeastShare = 0.15;
-  const double length = step.norm();
-  if (length < kTelling_m || points.empty()) return false;
-  const Eigen::Vector2f ahead = (step / length).cast<float>();
+  if (step.norm() < kTelling_m) return false;
+  const Eigen::Vector3f ahead(static_cast<float>(step.x()), static_cast<float>(step.y()), 0);
   const Eigen::Isometry3f T = T_other_lidar.cast<float>();
-  float front = -std::numeric_limits<float>::infinity(), rear = -front;
-  int visible = 0, empty = 0;
-  for (const Eigen::Vector3f& point : points) {
-    front = std::max(front, ahead.dot(point.head<2>()));
-    rear = std::min(rear, ahead.dot(point.head<2>()));
-    const Sight sight = other.at(T * point);
-    visible += sight == Sight::hidden ? 0 : 1;
-    empty += sight == Sight::seen_through ? 1 : 0;
+  const Extent extent = extent_of(object.points, ahead);
+  int telling = 0, gone = 0;
+  for (const Eigen::Vector3f& point : object.points) {
+    const Eigen::Vector3f further = point + ahead;
+    const Sight beyond = object.seen.at(further), then = other.at(T * point);
+    const bool is_end =
+        beyond == Sight::seen_through || (beyond == Sight::open && object.is_whole &&
+                                          ahead.dot(point) > extent.front - ahead.squaredNorm());
+    const bool is_behind_itself =
+        beyond == Sight::hidden && object.seen.reach(further) > extent.nearest_m;
+    const bool tells = is_behind_itself || (is_end && then != Sight::hidden);
+    telling += tells ? 1 : 0;
+    gone += tells && then != Sight::open ? 1 : 0;
   }
-  if (2 * visible < static_cast<int>(points.size())) return false;
-  const double newly_taken = std::min(1., length / std::max(0.1F, front - rear));
-  return empty < kLeastShare * newly_taken * visible;
+  const int fewest = std::max(kFewest, static_cast<int>(object.points.size()) / 5);
+  return telling >= fewest && gone < kLeastShare * telling;
 }
 
 }  // namespace lidar_upsampling

@@ -104,13 +104,20 @@ struct ObjectScans {
 [[nodiscard]] std::optional<KnownMotion> measure_between_scans(
     const ObjectScans& scans, Stamp stamp_k, const Eigen::Matrix3d& R_rest_lidar_k);
 
-/// @brief Whether another scan saw an object where this one does, so that it cannot have moved in
-/// between: hardly any of the places that it would have left or taken was seen empty then.
-/// @param points the object's, in their scan's frame.
-/// @param step over ground, level, m, either way; one too short to tell is no contradiction.
+/// A scan's sight of an object.
+struct ObjectSight {
+  const std::vector<Eigen::Vector3f>& points;  ///< the object's, lidar frame
+  const SeenSpace& seen;
+  bool is_whole;  ///< whether it is taken to end where nothing tells of more
+};
+
+/// @brief Whether another scan saw a surface wherever the object has one now, so that it cannot
+/// have come there in between. A place tells if no other part of the object would have been there:
+/// a step further on, nothing is now, or only what is behind the object itself.
+/// @param step over ground, level, m, that it is said to have made; the reverse where the other
+/// scan is the later one. One too short to tell is no contradiction.
 /// @param T_other_lidar ego-motion to the other scan.
-[[nodiscard]] bool was_there_then(const std::vector<Eigen::Vector3f>& points,
-                                  const Eigen::Vector2d& step, const Pose& T_other_lidar,
-                                  const SeenSpace& other);
+[[nodiscard]] bool was_there_then(const ObjectSight& object, const Eigen::Vector2d& step,
+                                  const Pose& T_other_lidar, const SeenSpace& other);
 
 }  // namespace lidar_upsampling

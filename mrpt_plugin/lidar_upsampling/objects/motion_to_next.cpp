@@ -39,13 +39,15 @@ ExpectedPlace place_of(const LevelGaussian& step, const Eigen::Vector3d& centroi
 bool is_lookalike(const SoughtObject& object, const ObjectRegistration& found,
                   const Eigen::Vector2d& step, const NextScan& next) {
   const Pose& T_next_k = next.T_lidar_next_lidar_k;
-  if (next.seen_k == nullptr || !was_there_then(object.points, step, T_next_k, next.seen))
+  if (next.seen_k == nullptr ||
+      !was_there_then({object.points, *next.seen_k, object.is_whole}, -step, T_next_k, next.seen))
     return false;
   std::vector<Eigen::Vector3f> there;
   for (const Eigen::Vector3f& point : object.points)
     there.emplace_back(found.T_target_object.cast<float>() * point);
   const Eigen::Matrix2d turn = T_next_k.linear().topLeftCorner<2, 2>();
-  return was_there_then(there, turn * step, T_next_k.inverse(), *next.seen_k);
+  return was_there_then({there, next.seen, object.is_whole}, turn * step, T_next_k.inverse(),
+                        *next.seen_k);
 }
 
 }  // namespace

@@ -28,7 +28,8 @@ struct SoughtObject {
   Stamp stamp;                          ///< of their own measurement
   std::vector<Pose> T_mov_guesses;      ///< its motion over ground until the next scan
   LevelGaussian expected_step;          ///< of its centroid over ground until then
-  bool search = false;  ///< whether also around: where no picture would tell a lookalike
+  bool search = false;   ///< whether also around: where no picture would tell a lookalike
+  bool is_whole = true;  ///< whether it is taken to end where nothing tells of more
 };
 
 /// What an object did from the key scan to the next one.

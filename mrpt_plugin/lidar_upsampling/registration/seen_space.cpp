@@ -64,4 +64,17 @@ Sight SeenSpace::at(const Eigen::Vector3f& place) const {
   return behind == beams ? Sight::seen_through : Sight::open;
 }
 
+float SeenSpace::reach(const Eigen::Vector3f& place) const {
+  const int row = row_of(place);
+  if (row < 0) return 0;
+  const int column = column_of(place);
+  float farthest = 0;
+  for (int step = -1; step <= 1; ++step)
+    farthest = std::max(
+        farthest,
+        cells_[static_cast<std::size_t>(row) * columns_ + (column + step + columns_) % columns_]
+            .farthest);
+  return farthest;
+}
+
 }  // namespace lidar_upsampling

@@ -24,6 +24,8 @@ class SeenSpace {
   /// @brief Judged by the beams around; where some end before the place and some behind, it is
   /// open.
   [[nodiscard]] Sight at(const Eigen::Vector3f& place) const;
+  /// m, that the beams went around a direction; zero where there were none.
+  [[nodiscard]] float reach(const Eigen::Vector3f& place) const;
 
  private:
   struct Reach {
