@@ -218,19 +218,12 @@ void LidarUpsampler::process(CameraView& view, const Picture& picture) {
 
 void LidarUpsampler::learn(const std::vector<ObjectMotion>& objects, Stamp instant) {
   for (const ObjectMotion& object : objects) {
-    const bool moving = object.status == MotionStatus::moving;
-    if (!moving && object.status != MotionStatus::stationary) continue;
+    if (object.status != MotionStatus::moving && object.status != MotionStatus::stationary)
+      continue;
     KnownMotion& known = known_motions_[object.track_id];
     if (known.travel && known.stamp > instant) continue;
-    known = {};
-    known.stamp = instant;
-    const double dt = seconds_between(key_->scan.stamp, instant);
-    const double sigma = position_sigma(object) / dt;
-    known.velocity_covariance = sigma * sigma * Eigen::Matrix2d::Identity();
-    if (!moving) continue;
-    known.velocity_at_rest = key_->T_rest_lidar_k.linear() * object.velocity_lidar_k;
-    known.yaw_rate = object.yaw_rate;
-    known.found_moving = true;
+    known = known_from(object, key_->scan.stamp, seconds_between(key_->scan.stamp, instant),
+                       key_->T_rest_lidar_k.linear());
   }
   constexpr double kForgetAfter_s = 2;
   for (auto motion = known_motions_.begin(); motion != known_motions_.end();)

@@ -132,21 +132,6 @@ void drop_covered_points(const CameraView& view, const LidarScan& key_scan,
   });
 }
 
-// What an image told is known to the next one: with it, the last one knows all since the key scan.
-KnownMotion known_from(const ObjectMotion& motion, const MotionQuery& query, const CameraView& view,
-                       Stamp measured_k) {
-  KnownMotion known;
-  known.stamp = shifted(measured_k, 0.5 * query.dt);
-  known.velocity_at_rest = view.R_rest_lidar_k * motion.velocity_lidar_k;
-  known.yaw_rate = motion.yaw_rate;
-  known.found_moving = true;
-  const Eigen::Matrix3d R = view.R_rest_lidar_k * query.T_lidar_t_lidar_k.linear().transpose();
-  known.velocity_covariance =
-      (R * motion.position_covariance * R.transpose()).topLeftCorner<2, 2>() /
-      (query.dt * query.dt);
-  return known;
-}
-
 // The answer with all that the virtual scan and the next picture want to know.
 ObjectMotion completed(Question question, Candidate& candidate, const CameraView& view,
                        const LidarScan& key_scan, const MotionPriorOptions& options) {
@@ -157,8 +142,11 @@ ObjectMotion completed(Question question, Candidate& candidate, const CameraView
                                            view.anchor_dt - candidate.time_s, query.dt);
     set_motion(motion, query.T_lidar_t_lidar_k * T_mov, query);
     candidate.rate = log_se3(T_mov) / query.dt;
+    // What an image told is known to the next one: with it, the last one knows all since the key
+    // scan.
     if (options.from_images)
-      candidate.seen = known_from(motion, query, view, shifted(key_scan.stamp, candidate.time_s));
+      candidate.seen = known_from(motion, shifted(key_scan.stamp, candidate.time_s), query.dt,
+                                  view.R_rest_lidar_k);
     if (candidate.at_next) learn_from_picture(candidate, motion, query, view, options);
   }
   if (candidate.at_next && motion.num_inliers > 0)

@@ -129,6 +129,20 @@ Eigen::Vector3d mean_of(const std::vector<Eigen::Vector3f>& points) {
   return sum / std::max<double>(1, static_cast<double>(points.size()));
 }
 
+KnownMotion known_from(const ObjectMotion& motion, Stamp stamp_k, double dt,
+                       const Eigen::Matrix3d& R_rest_lidar_k) {
+  KnownMotion known;
+  known.stamp = shifted(stamp_k, 0.5 * dt);
+  known.velocity_at_rest = R_rest_lidar_k * motion.velocity_lidar_k;
+  known.yaw_rate = motion.yaw_rate;
+  known.found_moving = motion.status == MotionStatus::moving;
+  const Eigen::Matrix3d R =
+      R_rest_lidar_k * motion.T_mov.linear() * motion.T_lidar_t_lidar_k.linear().transpose();
+  known.velocity_covariance =
+      (R * motion.position_covariance * R.transpose()).topLeftCorner<2, 2>() / (dt * dt);
+  return known;
+}
+
 double evidence_of_motion(const KnownMotion& known) {
   constexpr double kFinest = 0.1;  // m/s
   const Eigen::Vector2d velocity = known.velocity_at_rest.head<2>();

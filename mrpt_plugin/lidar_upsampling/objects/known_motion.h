@@ -34,6 +34,11 @@ struct KnownMotion {
 /// @return zero of no points.
 [[nodiscard]] Eigen::Vector3d mean_of(const std::vector<Eigen::Vector3f>& points);
 
+/// @brief What an image has told, of the middle of its interval.
+/// @param dt seconds from the key scan, of `stamp_k`, to the image.
+[[nodiscard]] KnownMotion known_from(const ObjectMotion& motion, Stamp stamp_k, double dt,
+                                     const Eigen::Matrix3d& R_rest_lidar_k);
+
 /// @brief Of the object moving at all when it was measured: a chi-square, of two degrees of freedom
 /// if it did not. Negative, by the odds, where two scans have clearly seen it stand.
 [[nodiscard]] double evidence_of_motion(const KnownMotion& known);
