@@ -107,11 +107,11 @@ void follow_view(CameraView& view, const Picture& picture, const LidarScan& key_
 
 /// @brief Motion of every candidate at the picture's instant; sets their rates for the next
 /// picture.
+/// @param is_followed whether the points were followed to it; else objects go on as they are known
+/// to move.
 /// @param next the real scan to come, where it is known: null for a live system.
-[[nodiscard]] std::vector<ObjectMotion> estimate_motions(CameraView& view, const Picture& picture,
-                                                         const LidarScan& key_scan,
-                                                         const Pose& T_lidar_t_lidar_k,
-                                                         const NextScan* next,
-                                                         const Config& config);
+[[nodiscard]] std::vector<ObjectMotion> estimate_motions(
+    CameraView& view, const Picture& picture, bool is_followed, const LidarScan& key_scan,
+    const Pose& T_lidar_t_lidar_k, const NextScan* next, const Config& config);
 
 }  // namespace lidar_upsampling

@@ -98,7 +98,7 @@ void LidarUpsampler::expect_next(const LidarScan& next) {
       SeenSpace(straight.points, estimate_vertical_step_deg(straight)), key_->seen.get()});
 }
 
-std::optional<VirtualScan> LidarUpsampler::insert_image(const CameraImage& image) {
+std::optional<VirtualScan> LidarUpsampler::insert_image(const CameraImage& image, Effort effort) {
   const Stamp instant = shifted(image.stamp, -1e-3 * config_.timing.camera_time_offset_ms);
   std::optional<VirtualScan> waiting;
   if (!group_.empty() &&
@@ -110,7 +110,7 @@ std::optional<VirtualScan> LidarUpsampler::insert_image(const CameraImage& image
   if (key_ && is_key_image(instant))
     start(view, picture);
   else if (is_due(instant))
-    process(view, *picture);
+    process(view, *picture, effort);
   view.last = picture;
 
   const std::size_t cameras = std::max(expected_cameras_, views_.size());
@@ -189,7 +189,7 @@ void LidarUpsampler::start(CameraView& view, const std::shared_ptr<const Picture
     if (candidate.known) known_motions_[candidate.track_id] = *candidate.known;
 }
 
-void LidarUpsampler::process(CameraView& view, const Picture& picture) {
+void LidarUpsampler::process(CameraView& view, const Picture& picture, Effort effort) {
   const bool anchor_is_near =
       view.last && std::abs(seconds_between(key_->scan.stamp, view.last->instant)) <=
                        1e-3 * config_.timing.max_anchor_gap_ms;
@@ -198,18 +198,19 @@ void LidarUpsampler::process(CameraView& view, const Picture& picture) {
 
   ImageResult result{
       picture.image.stamp, picture.instant, picture.image.camera, ego_step(picture.instant), {}};
-  {
+  const bool looks = effort == Effort::full;
+  if (looks) {
     const Stopwatch watch(timing_, "point tracking");
     follow_view(view, picture, key_->scan, result.ego.T_to_from, config_);
   }
-  if (!ego_motion_.step(key_->scan.stamp, picture.instant)) {
+  if (looks && !ego_motion_.step(key_->scan.stamp, picture.instant)) {
     const Stopwatch watch(timing_, "ego-motion");
     result.ego = camera_step(view, picture, result.ego);
   }
   {
     const Stopwatch watch(timing_, "object motion");
-    result.objects =
-        estimate_motions(view, picture, key_->scan, result.ego.T_to_from, next_.get(), config_);
+    result.objects = estimate_motions(view, picture, looks, key_->scan, result.ego.T_to_from,
+                                      next_.get(), config_);
   }
   for (const Candidate& candidate : view.candidates)
     if (candidate.at_next) known_motions_[candidate.track_id] = *candidate.at_next;

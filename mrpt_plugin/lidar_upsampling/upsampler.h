@@ -21,6 +21,12 @@ struct KnownMotion;
 struct NextScan;
 struct Picture;
 
+/// How much work there is time for at an image.
+enum class Effort {
+  full,
+  prediction  ///< nothing is followed on it: objects go on as they are known to move
+};
+
 /// @brief Scans and images in, virtual scans out: the whole method, streaming. Observations come in
 /// the order of the log; memory stays at one scan and a few images per camera however long the log.
 ///
@@ -58,7 +64,7 @@ class LidarUpsampler {
 
   /// @return the virtual scan at the image's instant if it is due (one key scan at least, not too
   /// close to a real scan, all cameras in), or a waiting one of an earlier instant.
-  std::optional<VirtualScan> insert_image(const CameraImage& image);
+  std::optional<VirtualScan> insert_image(const CameraImage& image, Effort effort = Effort::full);
 
   /// @return the virtual scan that still waits for other cameras, if any.
   std::optional<VirtualScan> flush();
@@ -69,7 +75,7 @@ class LidarUpsampler {
   [[nodiscard]] bool is_key_image(Stamp instant) const;
   [[nodiscard]] bool is_due(Stamp instant) const;
   void start(CameraView& view, const std::shared_ptr<const Picture>& anchor);
-  void process(CameraView& view, const Picture& picture);
+  void process(CameraView& view, const Picture& picture, Effort effort);
   [[nodiscard]] EgoStep ego_step(Stamp instant) const;
   [[nodiscard]] CameraEgoOptions camera_ego_options(double dt) const;
   [[nodiscard]] EgoStep camera_step(const CameraView& view, const Picture& picture,

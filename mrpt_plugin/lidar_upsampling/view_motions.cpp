@@ -163,8 +163,9 @@ ObjectMotion completed(Question question, Candidate& candidate, const CameraView
 }  // namespace
 
 std::vector<ObjectMotion> estimate_motions(CameraView& view, const Picture& picture,
-                                           const LidarScan& key_scan, const Pose& T_lidar_t_lidar_k,
-                                           const NextScan* next, const Config& config) {
+                                           bool is_followed, const LidarScan& key_scan,
+                                           const Pose& T_lidar_t_lidar_k, const NextScan* next,
+                                           const Config& config) {
   const ObjectMotionOptions& options = config.object_motion;
   MotionQuery query;
   query.camera = view.camera.model;
@@ -176,6 +177,7 @@ std::vector<ObjectMotion> estimate_motions(CameraView& view, const Picture& pict
   tbb::parallel_for(std::size_t{0}, questions.size(), [&](std::size_t i) {
     Question& question = questions[i];
     question = question_about(view, i, query, key_scan, options);
+    if (!is_followed) question.pairs.clear();
     question.motion = estimate_object_motion(question.pairs, question.query, options);
     fall_back_on_earlier_images(view, i, question, key_scan, options);
     if (next != nullptr)

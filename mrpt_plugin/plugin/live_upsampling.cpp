@@ -98,7 +98,7 @@ std::optional<VirtualScan> LiveUpsampling::insert_image(const Arrived& arrived) 
   cameras_.insert(image.camera.label);
   image_arrivals_[image.stamp] = arrived.time;
   if (image_arrivals_.size() > kMostRemembered) image_arrivals_.erase(image_arrivals_.begin());
-  return upsampler_.insert_image(image);
+  return upsampler_.insert_image(image, arrived.is_hurried ? Effort::prediction : Effort::full);
 }
 
 void LiveUpsampling::learn_ego_motion(const CObservation& observation) {

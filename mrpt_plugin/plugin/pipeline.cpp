@@ -91,8 +91,10 @@ void Pipeline::count(const Arrived& arrived) {
   ++statistics_.num_real;
   if (arrived.role == Role::scan) ++statistics_.num_scans;
   if (arrived.role == Role::image) ++statistics_.num_images;
+  const bool is_image = arrived.role == Role::image;
+  if (is_image && arrived.is_hurried && !arrived.is_late) ++statistics_.num_hurried;
   if (arrived.is_late && arrived.role == Role::scan) ++statistics_.num_late_scans;
-  if (arrived.is_late && arrived.role == Role::image) ++statistics_.num_late_images;
+  if (arrived.is_late && is_image) ++statistics_.num_late_images;
   const Stamp stamp = arrived.observation->timestamp;
   if (stamp < last_stamp_) ++statistics_.num_out_of_order;
   last_stamp_ = std::max(last_stamp_, stamp);

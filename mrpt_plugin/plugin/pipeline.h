@@ -52,7 +52,7 @@ class Pipeline {
   /// @throw what `role_of` throws; the observation is lost then.
   void push(const mrpt::obs::CObservation::Ptr& observation,
             const std::optional<Pose>& pose_by_actions = {});
-  /// Waits until a push makes no work late.
+  /// Waits until a push hurries no work.
   void wait_for_room() { queue_.wait_for_room(); }
 
   /// @brief No more will come. @param reason the first one given counts.

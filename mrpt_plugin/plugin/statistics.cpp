@@ -38,8 +38,9 @@ std::string summary(const SensorStatistics& statistics) {
   text << statistics.num_real << " real observations (" << statistics.num_scans << " scans, "
        << statistics.num_images << " images), " << statistics.num_virtual_scans
        << " virtual scans\n"
-       << "dropped as late: " << statistics.num_late_images << " virtual scans, "
-       << statistics.num_late_scans
+       << "hurried: " << statistics.num_hurried
+       << " images, on which no object was followed; dropped as late: "
+       << statistics.num_late_images << " virtual scans, " << statistics.num_late_scans
        << " key scans; real observations out of order: " << statistics.num_out_of_order << '\n'
        << "latency from image to virtual scan: " << quantiles(statistics.ready)
        << "; until handed out: " << quantiles(statistics.delivered);

@@ -27,6 +27,7 @@ struct SensorStatistics {
   std::size_t num_scans = 0;   ///< of them, of the LiDAR
   std::size_t num_images = 0;  ///< of them, of the cameras
   std::size_t num_virtual_scans = 0;
+  std::size_t num_hurried = 0;       ///< images on which nothing was followed, to catch up
   std::size_t num_late_images = 0;   ///< passed on without a virtual scan, as the work fell behind
   std::size_t num_late_scans = 0;    ///< passed on without becoming a key scan, likewise
   std::size_t num_out_of_order = 0;  ///< arrived after a later one had been passed on

@@ -17,8 +17,9 @@ void WorkQueue::push(Arrived arrived) {
       std::upper_bound(waiting_.begin(), waiting_.end(), arrived,
                        [this](const Arrived& a, const Arrived& b) { return goes_before(a, b); });
   waiting_.insert(place, std::move(arrived));
-  if (is_work && num_waiting(label, std::chrono::steady_clock::now()) > options_.max_waiting)
-    mark_oldest_late(label);
+  const std::size_t waiting = num_waiting(label, std::chrono::steady_clock::now());
+  if (is_work && waiting > max_unhurried()) mark_oldest(label, &Arrived::is_hurried);
+  if (is_work && waiting > options_.max_waiting) mark_oldest(label, &Arrived::is_late);
   changed_.notify_all();
 }
 
@@ -26,8 +27,7 @@ void WorkQueue::wait_for_room() {
   std::unique_lock<std::mutex> lock(mutex_);
   changed_.wait(lock, [this] {
     const auto is_full = [&](const Arrived& arrived) {
-      return num_waiting(arrived.observation->sensorLabel, SteadyTime::max()) >=
-             options_.max_waiting;
+      return num_waiting(arrived.observation->sensorLabel, SteadyTime::max()) >= max_unhurried();
     };
     return abandoned_ || std::none_of(waiting_.begin(), waiting_.end(), is_full);
   });
@@ -82,12 +82,17 @@ std::size_t WorkQueue::num_waiting(const std::string& label, SteadyTime now) con
   return static_cast<std::size_t>(std::count_if(waiting_.begin(), waiting_.end(), waits));
 }
 
-void WorkQueue::mark_oldest_late(const std::string& label) {
+std::size_t WorkQueue::max_unhurried() const {
+  return std::max<std::size_t>(
+      1, options_.max_waiting - std::min<std::size_t>(2, options_.max_waiting));
+}
+
+void WorkQueue::mark_oldest(const std::string& label, bool Arrived::*mark) {
   const auto oldest = std::find_if(waiting_.begin(), waiting_.end(), [&](const Arrived& arrived) {
-    return arrived.role != Role::other && !arrived.is_late &&
+    return arrived.role != Role::other && !arrived.is_late && !(arrived.*mark) &&
            arrived.observation->sensorLabel == label;
   });
-  oldest->is_late = true;
+  if (oldest != waiting_.end()) (*oldest).*mark = true;
 }
 
 // The first in line goes as soon as any one's time has come: that one must not overtake it.

@@ -28,7 +28,8 @@ struct Arrived {
   std::optional<Pose> pose_by_actions;
   Role role = Role::other;
   SteadyTime time = std::chrono::steady_clock::now();
-  bool is_late = false;  ///< passed on as it is: there is no time left to work on it
+  bool is_hurried = false;  ///< little time is left to work on it
+  bool is_late = false;     ///< passed on as it is: there is no time left to work on it
 };
 
 struct QueueOptions {
@@ -39,13 +40,13 @@ struct QueueOptions {
 
 /// @brief Observations in the order of their stamps; all that go in come out. What is bounded is
 /// the work: if more than `max_waiting` scans or images of a label wait, the oldest of them is
-/// marked late.
+/// marked late; already with one less (two at least), hurried.
 class WorkQueue {
  public:
   explicit WorkQueue(const QueueOptions& options) : options_(options) {}
 
   void push(Arrived arrived);
-  /// @brief Waits until a further scan or image makes none late. For sources that can wait.
+  /// @brief Waits until a further scan or image hurries none. For sources that can wait.
   void wait_for_room();
   /// @return the next observation as soon as there is one whose time has come; none at the end.
   [[nodiscard]] std::optional<Arrived> pop();
@@ -58,7 +59,8 @@ class WorkQueue {
  private:
   [[nodiscard]] bool goes_before(const Arrived& a, const Arrived& b) const;
   [[nodiscard]] std::size_t num_waiting(const std::string& label, SteadyTime now) const;
-  void mark_oldest_late(const std::string& label);
+  [[nodiscard]] std::size_t max_unhurried() const;
+  void mark_oldest(const std::string& label, bool Arrived::*mark);
   [[nodiscard]] std::optional<SteadyTime> next_due() const;
   [[nodiscard]] SteadyTime due(const Arrived& arrived) const;
 

@@ -90,6 +90,20 @@ TEST(Pipeline, late_images_go_without_a_virtual_scan_and_are_counted) {
   EXPECT_EQ(statistics.delivered.count(), 2U);
 }
 
+TEST(Pipeline, images_are_hurried_before_any_is_late) {
+  LiveRun live(3);
+  live.pipeline->push(observed("LIDAR", 0));
+  live.is_busy.get_future().wait();
+  for (const int ms : {0, 33, 67}) live.pipeline->push(observed("CAM0", ms));
+  live.pipeline->finish("over");
+  live.go_on.set_value();
+  EXPECT_EQ(live.rest().size(), 8U);
+  const SensorStatistics statistics = live.pipeline->statistics();
+  EXPECT_EQ(statistics.num_hurried, 2U);
+  EXPECT_EQ(statistics.num_late_images, 0U);
+  EXPECT_EQ(statistics.num_virtual_scans, 3U);
+}
+
 TEST(Pipeline, real_observations_survive_any_flood_in_time_order) {
   LiveRun live(1);
   live.pipeline->push(observed("POSE", 0));

@@ -115,7 +115,9 @@ class StreetRun {
     };
     for (const Event& event : events) {
       if (event.camera >= 0) {
-        take(upsampler.insert_image(renderers[event.camera].render(world, event.stamp, 7).image));
+        take(
+            upsampler.insert_image(renderers[event.camera].render(world, event.stamp, 7).image,
+                                   event.stamp < hurried_from ? Effort::full : Effort::prediction));
         continue;
       }
       take(upsampler.insert_scan(scan_at(event.stamp).scan));
@@ -128,6 +130,7 @@ class StreetRun {
 
   sim::Scenario scenario;
   sim::World world;
+  Stamp hurried_from = Stamp::max();
 };
 
 /// Mean distance of a virtual scan's points from where the truth puts them, those of moving objects

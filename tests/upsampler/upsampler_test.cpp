@@ -84,6 +84,23 @@ TEST(LidarUpsampler, who_knows_the_next_scan_moves_cars_better) {
             0.9 * mean_error_of_moving_points(street, blind));
 }
 
+TEST(LidarUpsampler, in_a_hurry_objects_go_on_as_they_were_seen_to_move) {
+  StreetRun street;
+  LidarUpsampler upsampler{moving_points()};
+  constexpr double kLastImages_s = 0.4;
+  street.hurried_from = shifted(sim::stamps_of(10, 0, 0.01).front(), kLastImages_s + 0.001);
+  const auto scans = street.run(upsampler);
+  ASSERT_EQ(scans.size(), 10U);
+  EXPECT_TRUE(moving_objects(scans.back()).empty());
+  EXPECT_GE(std::count_if(scans.back().objects.begin(), scans.back().objects.end(),
+                          [](const ObjectMotion& object) {
+                            return object.status == MotionStatus::predicted;
+                          }),
+            2);
+  EXPECT_LT(point_errors(street, scans.back()).moving, 0.15);
+  EXPECT_LT(point_errors(street, scans.back()).standing, 0.02);
+}
+
 TEST(LidarUpsampler, point_fields_stay_with_their_points) {
   StreetRun street("[scenario]\nduration_s = 0.1\n");
   LidarUpsampler upsampler{moving_points()};
