@@ -2,9 +2,13 @@
 // Copyright (c) 2026, the lidar_upsampling authors
 #include "lidar_upsampling/registration/seen_space.h"
 
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 namespace lidar_upsampling {
 namespace {
@@ -25,13 +29,22 @@ SeenSpace::SeenSpace(const std::vector<Eigen::Vector3f>& points, double vertical
       columns_(static_cast<int>(kTurn * per_column_) + 1),
       cells_(static_cast<std::size_t>(rows_) * columns_,
              Reach{std::numeric_limits<float>::infinity(), 0}) {
-  for (const Eigen::Vector3f& point : points) {
-    const int row = row_of(point);
-    if (row < 0) continue;
-    Reach& cell = cells_[static_cast<std::size_t>(row) * columns_ + column_of(point)];
-    const float range = point.norm();
-    cell.nearest = std::min(cell.nearest, range);
-    cell.farthest = std::max(cell.farthest, range);
+  struct Beam {
+    int cell;  // negative: none
+    float range;
+  };
+  std::vector<Beam> beams(points.size());
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, points.size(), 4096), [&](const auto& some) {
+    for (std::size_t i = some.begin(); i < some.end(); ++i) {
+      const int row = row_of(points[i]);
+      beams[i] = {row < 0 ? -1 : row * columns_ + column_of(points[i]), points[i].norm()};
+    }
+  });
+  for (const Beam& beam : beams) {
+    if (beam.cell < 0) continue;
+    Reach& cell = cells_[beam.cell];
+    cell.nearest = std::min(cell.nearest, beam.range);
+    cell.farthest = std::max(cell.farthest, beam.range);
   }
 }
 
