@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the lidar_upsampling authors
+#include <mrpt/obs/CActionCollection.h>
 #include <mrpt/obs/CObservation3DScene.h>
+#include <mrpt/obs/CSensoryFrame.h>
 
+#include <algorithm>
 #include <map>
+#include <vector>
 
 #include "end_to_end/stock_maps.h"
 #include "lidar_upsampling/io/carriers.h"
@@ -51,15 +55,28 @@ int num_different(const cv::Mat& a, const cv::Mat& b) {
   return count;
 }
 
-/// The number of the log's first entry that is such a one.
+/// The list of entries as it is shown: null for what is no observation, frames before what is in
+/// them.
+std::vector<const mrpt::obs::CObservation*> rows_of(const std::vector<RawlogEntry>& log) {
+  std::vector<const mrpt::obs::CObservation*> rows;
+  for (const RawlogEntry& entry : log) {
+    rows.push_back(dynamic_cast<const mrpt::obs::CObservation*>(entry.object.get()));
+    if (const auto* actions = dynamic_cast<const mrpt::obs::CActionCollection*>(entry.object.get()))
+      rows.resize(rows.size() + actions->size());
+    if (const auto* frame = dynamic_cast<const mrpt::obs::CSensoryFrame*>(entry.object.get()))
+      for (const auto& observation : *frame) rows.push_back(observation.get());
+  }
+  return rows;
+}
+
+/// The row of the log's first observation that is such a one.
 template <typename Wanted>
 std::string entry(const TestFolder& folder, const Wanted& wanted) {
-  int number = 0;
-  for (const RawlogEntry& entry : read_log(folder / "out.rawlog")) {
-    const auto* const seen = dynamic_cast<const mrpt::obs::CObservation*>(entry.object.get());
-    if (seen != nullptr && wanted(*seen)) return std::to_string(number);
-    ++number;
-  }
+  const auto log = read_log(folder / "out.rawlog");
+  const auto rows = rows_of(log);
+  const auto found = std::find_if(
+      rows.begin(), rows.end(), [&](const auto* seen) { return seen != nullptr && wanted(*seen); });
+  if (found != rows.end()) return std::to_string(found - rows.begin());
   ADD_FAILURE() << "no such entry in the log";
   return "0";
 }
@@ -80,8 +97,8 @@ class RawLogViewer : public testing::Test {
     }
   }
 
-  void make_log(const std::string& lidar, const std::string& settings) {
-    simulate(folder_, "[scenario]\nduration_s = 0.2\n", lidar);
+  void make_log(const std::string& lidar, const std::string& settings, const std::string& log) {
+    simulate(folder_, "[scenario]\nduration_s = 0.2\n" + log, lidar);
     densify(folder_, "--set annotate=1 " + settings);
   }
 
@@ -111,7 +128,8 @@ TEST_F(RawLogViewer, a_scan_without_points_is_a_blank_view) {
 
 struct Shown {
   std::string name, lidar, settings;
-  bool colors = true;  ///< MRPT colours the points
+  bool colors = true;    ///< MRPT colours the points
+  std::string log = {};  ///< of the scenario
 };
 
 void PrintTo(const Shown& shown, std::ostream* out) { *out << shown.name; }
@@ -119,7 +137,7 @@ void PrintTo(const Shown& shown, std::ostream* out) { *out << shown.name; }
 class ShownScans : public RawLogViewer, public testing::WithParamInterface<Shown> {};
 
 TEST_P(ShownScans, and_their_objects_are_seen_in_3d) {
-  make_log(GetParam().lidar, GetParam().settings);
+  make_log(GetParam().lidar, GetParam().settings, GetParam().log);
   ASSERT_FALSE(HasFailure());
   const cv::Mat empty = without_log();
   const Screen screen(folder_ / "with", "RawLogViewer " + folder_ / "out.rawlog");
@@ -146,6 +164,8 @@ INSTANTIATE_TEST_SUITE_P(
     RawLogViewer, ShownScans,
     testing::Values(Shown{"range_scans", kSmallLidar, "--set carrier=3drangescan"},
                     Shown{"point_clouds", kSmallLidar, "--set carrier=pointcloud", false},
+                    Shown{"sensory_frames", kSmallLidar, "--set carrier=3drangescan", true,
+                          "[log]\nformat = sensory_frames\n"},
                     Shown{"depth_images", kDepthCamera, "--set carrier=same"}),
     [](const auto& test) { return test.param.name; });
 
