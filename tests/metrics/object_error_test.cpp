@@ -119,6 +119,7 @@ TEST(ObjectRegistration, does_not_take_the_pattern_of_the_points_for_the_place_o
   ObjectRegistrationOptions options;
   options.min_points = 10;
   options.search_m = 0;
+  options.max_shift_m = 0.6;
   const auto found = register_object(side(34.8F), Surface(side(34)), {Pose::Identity()}, options);
   ASSERT_NE(found.status, RegistrationStatus::too_few_points);
   const double off = found.T_target_object.translation().x() + 0.8;

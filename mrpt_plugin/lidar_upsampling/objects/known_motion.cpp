@@ -52,6 +52,8 @@ std::array<Eigen::Vector3d, 3> steps_by_shape(const ObjectScans& scans) {
 ObjectRegistrationOptions quick_registration() {
   ObjectRegistrationOptions options;
   options.min_points = 10;
+  options.max_shift_m = 0.6;
+  options.weigh_as = 10;
   options.max_points = 120;
   options.max_iterations = 15;
   options.search_m = 0;

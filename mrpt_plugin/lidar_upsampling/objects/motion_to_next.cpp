@@ -20,6 +20,8 @@ constexpr double kUnexplained_m = 0.05;  // by which an expectation may be off a
 ObjectRegistrationOptions registration_options(bool search) {
   ObjectRegistrationOptions options;
   options.min_points = 10;
+  options.max_shift_m = 0.6;
+  options.weigh_as = 10;
   options.max_points = 200;
   options.max_iterations = 20;
   options.search_m = search ? kSearch_m : 0;

@@ -72,8 +72,9 @@ void add_level(const ObjectFit& problem, const Pose& T, Matrix6d& H, Twist& b) {
   const Eigen::AngleAxisd turned(T.linear() * problem.T_level.linear().transpose());
   const Eigen::Vector3d tilt = turned.angle() * turned.axis();
   const double rise = (T * problem.centroid - problem.T_level * problem.centroid).z();
-  // Neighbouring points err alike: ten weigh as one.
-  const double crowd = std::max(1., 0.1 * static_cast<double>(problem.points.size()));
+  const int weigh_as = problem.options.weigh_as;
+  const double crowd =
+      weigh_as > 0 ? std::max(1., static_cast<double>(problem.points.size()) / weigh_as) : 1;
   const auto weight = [&](double sigma) { return crowd * std::pow(kResidualSigma / sigma, 2); };
   const double tilt_weight = weight(problem.options.tilt_sigma_rad);
   for (int axis = 0; axis < 2; ++axis) {
@@ -158,9 +159,9 @@ struct Ambiguity {
 /// Points lock into one another's pattern: the start is more than half a step of it away, and
 /// within a step they may lie anyhow.
 Ambiguity ambiguity_of(const ObjectFit& problem, const Candidate& best) {
-  constexpr double kShift = 0.2, kMaxShift = 0.6;
+  constexpr double kShift = 0.2;
   const Sampling sampling = sampling_under(problem, best.T);
-  const double shift_m = std::clamp(0.6 * sampling.spacing_m, kShift, kMaxShift);
+  const double shift_m = std::clamp(0.6 * sampling.spacing_m, kShift, problem.options.max_shift_m);
   const double stop = 0.01 * shift_m;  // finer would tell nothing of who comes back
   const std::array<std::array<double, 2>, 4> shifts{
       {{shift_m, 0}, {-shift_m, 0}, {0, shift_m}, {0, -shift_m}}};

@@ -22,6 +22,9 @@ struct ObjectRegistrationOptions {
   double overlap_distance_m = 0.2;  ///< a point is covered if the target has one this near
   double min_overlap = 0.6;
   double max_spread_m = 0.1;  ///< between answers from several starts
+  double max_shift_m = 0.2;   ///< of these starts; they need more than half the points' spacing
+  int weigh_as = 0;  ///< points, all of them together, against the level, as neighbours err alike;
+                     ///< 0: each counts
   int max_iterations = 25;
 };
 

@@ -134,7 +134,7 @@ Surface& Surface::operator=(Surface&&) noexcept = default;
 Eigen::Vector3f Surface::normal(int point) const {
   std::atomic<std::uint8_t>& state = known_->states[point];
   if (state.load(std::memory_order_acquire) == Known::ready) return known_->normals[point];
-  const Eigen::Vector3f normal = normal_at(index_, points()[point], options_);
+  Eigen::Vector3f normal = normal_at(index_, points()[point], options_);
   // Whoever comes while another one writes goes on with its own.
   std::uint8_t expected = Known::unknown;
   if (state.compare_exchange_strong(expected, Known::under_way, std::memory_order_relaxed)) {
