@@ -7,9 +7,9 @@ cd "$(dirname "$0")/.."
 bash share/install-deps.sh --tests
 
 git ls-files '*.h' '*.cpp' | xargs clang-format --dry-run --Werror
-cmake --preset dev
-cmake --build --preset dev
-ctest --preset dev
+cmake --preset ci
+cmake --build --preset ci
+ctest --preset ci
 
 cmake --preset asan
 cmake --build --preset asan --target unit_tests

@@ -7,10 +7,11 @@
 #include <cmath>
 #include <numeric>
 
+#include "lidar_upsampling/units.h"
+
 namespace lidar_upsampling::argoverse {
 namespace {
 
-constexpr double kDegree = M_PI / 180;
 /// Less than the lasers' own spread says nothing about the LiDAR.
 constexpr double kDecisive = 0.3 * kDegree;
 constexpr double kFewestAgree = 0.9;

@@ -204,20 +204,20 @@ void write_scan(benchmark::State& state) {
   state.counters["points"] = static_cast<double>(in.scan.size());
 }
 
-#define LIDAR_UPSAMPLING_BENCHMARK(name) \
+#define LIDAR_UPSAMPLING_STAGE_BENCHMARK(name) \
   BENCHMARK(name)->Unit(benchmark::kMillisecond)->UseRealTime()
-LIDAR_UPSAMPLING_BENCHMARK(image_pyramid);
-LIDAR_UPSAMPLING_BENCHMARK(project_and_mark);
-LIDAR_UPSAMPLING_BENCHMARK(ground_and_clusters);
-LIDAR_UPSAMPLING_BENCHMARK(cluster_detector);
-LIDAR_UPSAMPLING_BENCHMARK(scan_registration);
-LIDAR_UPSAMPLING_BENCHMARK(klt_1000_points);
-LIDAR_UPSAMPLING_BENCHMARK(pose_100_points);
-LIDAR_UPSAMPLING_BENCHMARK(camera_ego);
-LIDAR_UPSAMPLING_BENCHMARK(compose_120k);
-LIDAR_UPSAMPLING_BENCHMARK(beams_120k);
-LIDAR_UPSAMPLING_BENCHMARK(resample_120k);
-LIDAR_UPSAMPLING_BENCHMARK(write_scan);
+LIDAR_UPSAMPLING_STAGE_BENCHMARK(image_pyramid);
+LIDAR_UPSAMPLING_STAGE_BENCHMARK(project_and_mark);
+LIDAR_UPSAMPLING_STAGE_BENCHMARK(ground_and_clusters);
+LIDAR_UPSAMPLING_STAGE_BENCHMARK(cluster_detector);
+LIDAR_UPSAMPLING_STAGE_BENCHMARK(scan_registration);
+LIDAR_UPSAMPLING_STAGE_BENCHMARK(klt_1000_points);
+LIDAR_UPSAMPLING_STAGE_BENCHMARK(pose_100_points);
+LIDAR_UPSAMPLING_STAGE_BENCHMARK(camera_ego);
+LIDAR_UPSAMPLING_STAGE_BENCHMARK(compose_120k);
+LIDAR_UPSAMPLING_STAGE_BENCHMARK(beams_120k);
+LIDAR_UPSAMPLING_STAGE_BENCHMARK(resample_120k);
+LIDAR_UPSAMPLING_STAGE_BENCHMARK(write_scan);
 
 }  // namespace
 }  // namespace lidar_upsampling::bench

@@ -84,13 +84,13 @@ void whole_image_second(benchmark::State& state) { time_step(state, second_image
 // All of it per virtual scan: what decides whether a log is densified as fast as it was driven.
 void scan_and_two_images(benchmark::State& state) { time_step(state, all_steps); }
 
-#define LIDAR_UPSAMPLING_BENCHMARK(name) \
+#define LIDAR_UPSAMPLING_WHOLE_BENCHMARK(name) \
   BENCHMARK(name)->Unit(benchmark::kMillisecond)->UseManualTime()->Iterations(kIterations)
-LIDAR_UPSAMPLING_BENCHMARK(whole_scan);
-LIDAR_UPSAMPLING_BENCHMARK(whole_key_image);
-LIDAR_UPSAMPLING_BENCHMARK(whole_image_first);
-LIDAR_UPSAMPLING_BENCHMARK(whole_image_second);
-LIDAR_UPSAMPLING_BENCHMARK(scan_and_two_images);
+LIDAR_UPSAMPLING_WHOLE_BENCHMARK(whole_scan);
+LIDAR_UPSAMPLING_WHOLE_BENCHMARK(whole_key_image);
+LIDAR_UPSAMPLING_WHOLE_BENCHMARK(whole_image_first);
+LIDAR_UPSAMPLING_WHOLE_BENCHMARK(whole_image_second);
+LIDAR_UPSAMPLING_WHOLE_BENCHMARK(scan_and_two_images);
 
 }  // namespace
 }  // namespace lidar_upsampling::bench

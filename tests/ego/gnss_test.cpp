@@ -8,6 +8,7 @@
 
 #include "drive.h"
 #include "lidar_upsampling/ego/ego_motion.h"
+#include "lidar_upsampling/units.h"
 
 namespace lidar_upsampling {
 namespace {
@@ -66,8 +67,6 @@ Errors step_errors(const Drive& drive, double noise_m, double period, bool causa
   }
   return {std::sqrt(sum.translation / count), std::sqrt(sum.angle / count)};
 }
-
-constexpr double kDegree = M_PI / 180;
 
 TEST(Gnss, heading_follows_a_curve) {
   const Drive drive{8, 0.3};

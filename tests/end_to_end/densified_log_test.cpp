@@ -5,8 +5,6 @@
 namespace lidar_upsampling {
 namespace {
 
-constexpr int kVirtualScans = 8;  // 5 scans, 13 images, of which 5 are at a scan's instant
-
 TEST(DensifiedLog, every_image_between_two_scans_is_followed_by_its_virtual_scan) {
   const TestFolder folder;
   simulate(folder);

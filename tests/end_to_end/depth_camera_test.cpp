@@ -33,7 +33,7 @@ class DepthCamera : public testing::TestWithParam<std::string> {
   TestFolder folder_;
 };
 
-constexpr std::size_t kVirtualScans = 8, kRealScans = 5;
+constexpr std::size_t kRealScans = 5;
 
 /// What the folder's map is made of: its virtual scans, and nothing of the real ones.
 void expect_map_of_virtual_scans_only(const std::string& folder) {

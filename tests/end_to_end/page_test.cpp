@@ -18,13 +18,6 @@ std::string text_of(const std::string& path) {
   return text.str();
 }
 
-int count_of(const std::string& text, const std::string& part) {
-  int count = 0;
-  for (std::size_t at = 0; (at = text.find(part, at)) != std::string::npos; at += part.size())
-    ++count;
-  return count;
-}
-
 /// A simulated log, densified and judged, and the page about it in a browser.
 class Page : public testing::Test {
  protected:

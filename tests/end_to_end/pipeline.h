@@ -50,6 +50,16 @@ yaw_deg = 180
 speed_mps = 9
 )";
 
+/// What densify() makes of it: 5 scans and 13 images, of which 5 are at a scan's instant.
+inline constexpr int kVirtualScans = 8;
+
+[[nodiscard]] inline int count_of(const std::string& text, const std::string& part) {
+  int count = 0;
+  for (std::size_t at = 0; (at = text.find(part, at)) != std::string::npos; at += part.size())
+    ++count;
+  return count;
+}
+
 /// What goes wrong in a tool that was expected to work.
 inline void expect_done(const std::string& command) {
   const ToolResult result = run(command);
@@ -128,6 +138,13 @@ inline std::vector<Logged> without_label(const std::vector<Logged>& all, const s
   std::copy_if(all.begin(), all.end(), std::back_inserter(found),
                [&](const Logged& logged) { return logged.label() != label; });
   return found;
+}
+
+[[nodiscard]] inline std::vector<Stamp> stamps_of(const std::vector<Logged>& all) {
+  std::vector<Stamp> stamps;
+  stamps.reserve(all.size());
+  for (const Logged& logged : all) stamps.push_back(logged.stamp());
+  return stamps;
 }
 
 }  // namespace lidar_upsampling

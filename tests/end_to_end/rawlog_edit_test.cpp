@@ -7,8 +7,6 @@
 namespace lidar_upsampling {
 namespace {
 
-constexpr int kVirtualScans = 8;  // 5 scans, 13 images, of which 5 are at a scan's instant
-
 struct EditedLog {
   std::string name;
   std::string changes;  ///< of the street
@@ -20,12 +18,6 @@ struct EditedLog {
 void PrintTo(const EditedLog& log, std::ostream* out) { *out << log.name; }
 
 class RawlogEdit : public testing::TestWithParam<EditedLog> {};
-
-int count_of(const std::string& text, const std::string& part) {
-  int count = 0;
-  for (auto at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++count;
-  return count;
-}
 
 void expect_counted(const EditedLog& log, const std::string& path) {
   const ToolResult info = run("rawlog-edit --info -i " + path);

@@ -5,6 +5,7 @@
 #include <mrpt/opengl/CBox.h>
 
 #include "end_to_end/pipeline.h"
+#include "export/scene_objects.h"
 
 namespace lidar_upsampling {
 namespace {
@@ -26,15 +27,6 @@ class Annotation : public ::testing::TestWithParam<const char*> {
 
 CObservation3DScene* scene_of(const Logged& logged) {
   return dynamic_cast<CObservation3DScene*>(logged.observation.get());
-}
-
-template <typename Object>
-std::size_t count(const mrpt::opengl::COpenGLScene& scene) {
-  std::size_t number = 0;
-  scene.visitAllObjects([&](const mrpt::opengl::CRenderizable::Ptr& object) {
-    if (std::dynamic_pointer_cast<Object>(object)) ++number;
-  });
-  return number;
 }
 
 TEST_P(Annotation, follows_each_virtual_scan_with_its_stamp) {

@@ -9,6 +9,7 @@
 
 #include "argoverse2rawlog/ply.h"
 #include "end_to_end/pipeline.h"
+#include "export/scene_objects.h"
 #include "lidar_upsampling/io/carriers.h"
 #include "lidar_upsampling/stamp_text.h"
 
@@ -43,15 +44,6 @@ class Export : public ::testing::Test {
  private:
   TestFolder folder_;
 };
-
-template <typename Object>
-std::size_t count(const mrpt::opengl::COpenGLScene& scene) {
-  std::size_t number = 0;
-  scene.visitAllObjects([&](const mrpt::opengl::CRenderizable::Ptr& object) {
-    if (std::dynamic_pointer_cast<Object>(object)) ++number;
-  });
-  return number;
-}
 
 TEST_F(Export, ply_holds_every_point_of_every_virtual_scan) {
   expect_done(command(""));

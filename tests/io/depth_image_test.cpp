@@ -16,7 +16,7 @@ namespace {
 using mrpt::obs::CObservation;
 
 /// Through the bytes of a log.
-CObservation3DRangeScan::Ptr stored(const CObservation& observation) {
+CObservation3DRangeScan::Ptr stored_depth(const CObservation& observation) {
   std::vector<std::uint8_t> bytes;
   mrpt::serialization::ObjectToOctetVector(&observation, bytes);
   mrpt::serialization::CSerializable::Ptr object;
@@ -28,7 +28,7 @@ LidarScan scan_of(CObservation3DRangeScan& camera) { return scan_from_observatio
 
 CObservation3DRangeScan::Ptr virtual_image(const LidarScan& scan,
                                            const CObservation3DRangeScan& like) {
-  return stored(*observation_from_scan(scan, Carrier::same, &like));
+  return stored_depth(*observation_from_scan(scan, Carrier::same, &like));
 }
 
 int num_returns(const CObservation3DRangeScan& image) {

@@ -9,7 +9,7 @@ namespace {
 
 using Points = std::vector<Eigen::Vector3f>;
 
-constexpr double kPeriod = 0.1;
+constexpr double kScanPeriod = 0.1;
 constexpr double kRings_deg = 0.4;
 const LevelGaussian kAnywhere{{0, 0}, 1.44 * Eigen::Matrix2d::Identity()};
 
@@ -29,7 +29,7 @@ Points vehicle(float x) {
 }
 
 NextScan next_scan(const Points& points, const Pose& T_next_k = Pose::Identity()) {
-  return {shifted(Stamp{}, kPeriod), Surface(points), T_next_k, SeenSpace(points, kRings_deg)};
+  return {shifted(Stamp{}, kScanPeriod), Surface(points), T_next_k, SeenSpace(points, kRings_deg)};
 }
 
 std::optional<MotionToNext> measured(const NextScan& next,
@@ -48,7 +48,7 @@ TEST(MeasureToNext, a_step_of_which_nothing_was_known_is_found) {
   ASSERT_TRUE(motion);
   EXPECT_NEAR(motion->step.mean.x(), 1.2, 0.02);
   EXPECT_NEAR(motion->step.mean.y(), 0, 0.02);
-  EXPECT_DOUBLE_EQ(motion->dt, kPeriod);
+  EXPECT_DOUBLE_EQ(motion->dt, kScanPeriod);
   EXPECT_GT(evidence_of(*motion), 100);
 }
 
@@ -144,10 +144,10 @@ TEST(ExpectOnTheWay, who_was_faster_before_is_past_the_middle_at_half_time) {
 TEST(EvidenceOfMotion, is_significant_sooner_where_no_picture_speaks_for_parked) {
   const Travel travel =
       having_seen(expect_travel({}, Stamp{}, Eigen::Matrix3d::Identity(), MotionPriorOptions()),
-                  {{0.27, 0}, 0.01 * Eigen::Matrix2d::Identity()}, kPeriod);
+                  {{0.27, 0}, 0.01 * Eigen::Matrix2d::Identity()}, kScanPeriod);
   constexpr double kSignificant = 16.8;  // of six degrees of freedom, as ObjectMotionOptions has it
-  EXPECT_LT(evidence_of_motion(travel, kPeriod, false), kSignificant);
-  EXPECT_GT(evidence_of_motion(travel, kPeriod, true), kSignificant);
+  EXPECT_LT(evidence_of_motion(travel, kScanPeriod, false), kSignificant);
+  EXPECT_GT(evidence_of_motion(travel, kScanPeriod, true), kSignificant);
 }
 
 }  // namespace

@@ -17,13 +17,6 @@ using mrpt::obs::CSensoryFrame;
 
 constexpr std::size_t kRealScans = 5, kVirtualScans = 8;  // of 13 images
 
-std::vector<Stamp> stamps_of(const std::vector<Logged>& all) {
-  std::vector<Stamp> stamps;
-  stamps.reserve(all.size());
-  for (const Logged& logged : all) stamps.push_back(logged.stamp());
-  return stamps;
-}
-
 // Of the images that no scan was taken with.
 std::vector<Stamp> stamps_between_scans(const std::vector<Logged>& all, const std::string& lidar) {
   const std::vector<Stamp> scans = stamps_of(with_label(all, lidar));

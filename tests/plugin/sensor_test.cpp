@@ -19,13 +19,6 @@ std::vector<Stamp> stamps_of(const std::vector<CObservation::Ptr>& all, const st
   return stamps;
 }
 
-std::vector<Stamp> stamps_of(const std::vector<Logged>& all) {
-  std::vector<Stamp> stamps;
-  stamps.reserve(all.size());
-  for (const Logged& logged : all) stamps.push_back(logged.stamp());
-  return stamps;
-}
-
 constexpr const char* kSecondCamera = R"(
 [camera.CAM1]
 width = 414

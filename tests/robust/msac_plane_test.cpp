@@ -6,10 +6,10 @@
 
 #include <numeric>
 
+#include "lidar_upsampling/units.h"
+
 namespace lidar_upsampling {
 namespace {
-
-constexpr double kDegree = 3.14159265358979323846 / 180;
 
 struct Scene {
   std::vector<Eigen::Vector3f> points;

@@ -17,7 +17,7 @@ namespace {
 
 using namespace testing;
 
-const Block kWall{{14, -30, -2}, {15, 30, 6}};
+const Block kBackdrop{{14, -30, -2}, {15, 30, 6}};
 const Block kCar{{6, -1, -1.7}, {9, 1, -0.2}};
 
 TEST(Azimuth, is_that_of_the_arc_tangent_all_around) {
@@ -100,7 +100,7 @@ std::vector<FootprintsOfRow> footprints_of(const Scene& scene, const PatchSet& p
 }
 
 TEST(RowCaster, finds_what_a_search_through_all_patches_finds) {
-  const Scene scene(scan_of({kWall, kCar}, {}));
+  const Scene scene(scan_of({kBackdrop, kCar}, {}));
   const PatchSet patches{scene.patches, std::vector<int>(scene.patches.size(), -1), {}};
   const Columns columns(scene.pattern.azimuth_pitch);
   const std::vector<FootprintsOfRow> footprints = footprints_of(scene, patches, columns);
@@ -128,7 +128,7 @@ TEST(RowCaster, finds_what_a_search_through_all_patches_finds) {
 }
 
 TEST(RowCaster, leaves_out_patches_that_do_not_count) {
-  Scene scene(scan_of({kWall, kCar}, {}));
+  Scene scene(scan_of({kBackdrop, kCar}, {}));
   std::fill(scene.motions.of_patch.begin(), scene.motions.of_patch.end(), PatchMotions::kAbsent);
   const PatchSet patches{scene.patches, std::vector<int>(scene.patches.size(), -1), {}};
   const Columns columns(scene.pattern.azimuth_pitch);

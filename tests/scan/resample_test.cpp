@@ -15,7 +15,7 @@ namespace {
 
 using namespace testing;
 
-const Block kWall{{20, -30, -2}, {21, 30, 6}};
+const Block kFarWall{{20, -30, -2}, {21, 30, 6}};
 const Block kPost{{9, 2, -2}, {9.5, 2.5, 2}};
 
 class ResampleForRings : public ::testing::TestWithParam<int> {};
@@ -48,7 +48,7 @@ TEST(Resample, lasers_apart_from_each_other_see_what_each_of_them_sees) {
   const Pose T_world_lidar_t = driven(0.6, 0, 0);
   // Seen from one point, the fence would hide the wall from lasers that look over it.
   const Block fence{{3, -2, -2}, {3.3, 2, 0.1}};
-  const std::vector<Block> blocks{kWall, fence};
+  const std::vector<Block> blocks{kFarWall, fence};
   const LabelledScan key = scan_of(blocks, spinner);
   const LabelledScan truth = scan_of(blocks, spinner, T_world_lidar_t);
   const auto [result, status] = resample_on_beams(key.scan, moved_scan(key, T_world_lidar_t));
@@ -69,7 +69,7 @@ TEST(Resample, noise_does_not_grow) {
   Spinner spinner;
   spinner.noise_m = 0.02;
   const Pose T_world_lidar_t = driven(0.5, 0, 0);
-  const LabelledScan key = scan_of({kWall}, spinner);
+  const LabelledScan key = scan_of({kFarWall}, spinner);
   const auto [result, status] = resample_on_beams(key.scan, moved_scan(key, T_world_lidar_t));
   ASSERT_EQ(status, Resampling::done);
   double sq_sum = 0;
@@ -108,7 +108,7 @@ TEST(Resample, what_turns_into_empty_beams_is_seen_by_them) {
 
 TEST(Resample, ring_column_and_time_are_the_beams_the_rest_is_the_surfaces) {
   const Spinner spinner;
-  const LabelledScan key = scan_of({kWall}, spinner);
+  const LabelledScan key = scan_of({kFarWall}, spinner);
   const auto [result, status] = resample_on_beams(key.scan, moved_scan(key, driven(1, 0, 0)));
   ASSERT_EQ(status, Resampling::done);
   const LidarScan& scan = result.scan;
@@ -131,7 +131,7 @@ TEST(Resample, ring_column_and_time_are_the_beams_the_rest_is_the_surfaces) {
 TEST(Resample, is_the_same_for_any_number_of_threads) {
   Spinner spinner;
   spinner.noise_m = 0.02;
-  const LabelledScan key = scan_of({kWall, kPost}, spinner);
+  const LabelledScan key = scan_of({kFarWall, kPost}, spinner);
   const VirtualScan moved = moved_scan(key, driven(0.7, 0.1, 2), 1, {0, 0.8, 0});
   std::vector<VirtualScan> results;
   for (const std::size_t threads : {1, 4}) {
@@ -143,7 +143,7 @@ TEST(Resample, is_the_same_for_any_number_of_threads) {
 }
 
 TEST(Resample, nothing_is_done_below_the_motion_that_is_worth_it) {
-  const LabelledScan key = scan_of({kWall, kPost}, {});
+  const LabelledScan key = scan_of({kFarWall, kPost}, {});
   const VirtualScan hardly_moved = moved_scan(key, driven(0.02, 0, 0));
   const auto [result, status] = resample_on_beams(key.scan, hardly_moved);
   EXPECT_EQ(status, Resampling::little_motion);
@@ -156,7 +156,7 @@ TEST(Resample, nothing_is_done_below_the_motion_that_is_worth_it) {
 }
 
 TEST(Resample, a_scan_without_rings_stays_as_it_is) {
-  LabelledScan key = scan_of({kWall}, {});
+  LabelledScan key = scan_of({kFarWall}, {});
   key.scan.ring.clear();
   const VirtualScan moved = moved_scan(key, driven(1, 0, 0));
   const auto [result, status] = resample_on_beams(key.scan, moved);
@@ -165,7 +165,7 @@ TEST(Resample, a_scan_without_rings_stays_as_it_is) {
 }
 
 TEST(Resample, works_without_columns) {
-  LabelledScan key = scan_of({kWall}, {});
+  LabelledScan key = scan_of({kFarWall}, {});
   const VirtualScan with = moved_scan(key, driven(1, 0, 0));
   const auto expected = resample_on_beams(key.scan, with);
   key.scan.column.clear();
@@ -177,7 +177,7 @@ TEST(Resample, works_without_columns) {
 }
 
 TEST(Resample, a_virtual_scan_of_another_key_scan_is_rejected) {
-  const LabelledScan key = scan_of({kWall}, {});
+  const LabelledScan key = scan_of({kFarWall}, {});
   VirtualScan moved = moved_scan(key, driven(1, 0, 0));
   moved.source_index.back() = static_cast<int>(key.scan.size());
   EXPECT_THROW((void)resample_on_beams(key.scan, moved), std::invalid_argument);

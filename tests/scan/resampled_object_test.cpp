@@ -12,7 +12,7 @@ namespace {
 
 using namespace testing;
 
-constexpr int kCar = 1;
+constexpr int kCarIndex = 1;
 const Block kWallBehind{{18, -30, -2}, {19, 30, 6}};
 const Block kCarBefore{{8, -1, -1.7}, {12, 1, -0.2}};
 const Eigen::Vector3d kShift(0, 1.5, 0);
@@ -24,7 +24,8 @@ class ResampledCar : public ::testing::TestWithParam<double> {
   void SetUp() override {
     const LabelledScan key = scan_of({kWallBehind, kCarBefore}, {});
     truth_ = scan_of({kWallBehind, kCarAfter}, {}, T_world_lidar_t_);
-    auto resampled = resample_on_beams(key.scan, moved_scan(key, T_world_lidar_t_, kCar, kShift));
+    auto resampled =
+        resample_on_beams(key.scan, moved_scan(key, T_world_lidar_t_, kCarIndex, kShift));
     ASSERT_EQ(resampled.status, Resampling::done);
     result_ = std::move(resampled.scan);
     true_point_ = by_beam(truth_.scan);
@@ -56,11 +57,11 @@ class ResampledCar : public ::testing::TestWithParam<double> {
 TEST_P(ResampledCar, hides_what_is_behind_it) {
   int on_car = 0;
   for (std::size_t i = 0; i < result_.scan.size(); ++i) {
-    if (clear_surface(result_.scan.ring[i], result_.scan.column[i]) != kCar) continue;
+    if (clear_surface(result_.scan.ring[i], result_.scan.column[i]) != kCarIndex) continue;
     ASSERT_EQ(result_.track_id[i], 7) << result_.scan.points[i].transpose();
     ++on_car;
   }
-  const auto expected = std::count(truth_.surface.begin(), truth_.surface.end(), kCar);
+  const auto expected = std::count(truth_.surface.begin(), truth_.surface.end(), kCarIndex);
   EXPECT_GT(expected, 1000);
   // Its side comes into sight, which the key scan has not seen.
   EXPECT_GT(on_car, 0.6 * static_cast<double>(expected));
@@ -108,7 +109,7 @@ INSTANTIATE_TEST_SUITE_P(Driving, ResampledCar, ::testing::Values(0., 0.7));
 
 TEST(ResampledScan, leaves_out_moving_objects_that_are_not_wanted) {
   const LabelledScan key = scan_of({kWallBehind, kCarBefore}, {});
-  VirtualScan moved = moved_scan(key, driven(0.7, 0, 0), kCar, kShift);
+  VirtualScan moved = moved_scan(key, driven(0.7, 0, 0), kCarIndex, kShift);
   ScanMotion motion{moved.scan.stamp, moved.T_lidar_t_lidar_k, false, moved.objects, {}};
   const VirtualScan without = compose_virtual_scan(key.scan, motion, "LIDAR_VIRTUAL",
                                                    {OutsideView::ego, MovingObjects::drop});

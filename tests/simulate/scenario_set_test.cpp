@@ -6,13 +6,12 @@
 #include <opencv2/core.hpp>
 #include <set>
 
+#include "lidar_upsampling/units.h"
 #include "test_world.h"
 
 // What the name of each shipped scenario promises, measured on its truth.
 namespace lidar_upsampling::sim {
 namespace {
-
-constexpr double kRadian = M_PI / 180;
 
 struct Shipped {
   Scenario scenario;
@@ -212,7 +211,7 @@ TEST(RotatingEgoScenario, the_ego_turns_and_hardly_gets_on) {
   for (const Stamp stamp : rotating.stamps) {
     turned += state_at(ego, time_of(stamp)).yaw_rate / rotating.scenario.lidar.rate_hz;
   }
-  EXPECT_GT(turned, 80 * kRadian);
+  EXPECT_GT(turned, 80 * kDegree);
   const MotionState late = state_at(ego, rotating.scenario.duration_s);
   EXPECT_LT(late.speed / late.yaw_rate, 0.3);  // the radius of its curve, at last
 }
@@ -232,7 +231,7 @@ TEST(DepthCameraScenario, the_view_is_narrow_short_and_dense) {
   const LidarScan scan = scan_at(depth.world, spec, start_stamp(), 1).scan;
   EXPECT_GT(scan.size(), 30000U);
   for (const Eigen::Vector3f& p : scan.points) {
-    ASSERT_LT(std::abs(std::atan2(p.y(), p.x())), 30 * kRadian);
+    ASSERT_LT(std::abs(std::atan2(p.y(), p.x())), 30 * kDegree);
     ASSERT_LT(p.norm(), spec.max_range_m + 1);
   }
 }

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "lidar_upsampling/io/images.h"
+#include "lidar_upsampling/units.h"
 
 namespace lidar_upsampling {
 namespace {
@@ -50,7 +51,6 @@ struct Setting {
 
   [[nodiscard]] Pose pose() const {
     const std::vector<double> v = numbers(6, 6);
-    constexpr double kDegree = M_PI / 180;
     return from_mrpt(
         mrpt::poses::CPose3D(v[0], v[1], v[2], v[3] * kDegree, v[4] * kDegree, v[5] * kDegree));
   }

@@ -6,10 +6,11 @@
 #include <array>
 #include <cmath>
 
+#include "lidar_upsampling/units.h"
+
 namespace lidar_upsampling {
 namespace {
 
-constexpr double kDegree = 3.14159265358979323846 / 180;
 constexpr double kDefaultVerticalStepDeg = 0.4;
 
 /// Elevations in bins of a quarter degree; rings that lie closer together leave no empty bins

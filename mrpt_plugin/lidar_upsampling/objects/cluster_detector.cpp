@@ -7,12 +7,11 @@
 #include <limits>
 
 #include "lidar_upsampling/objects/hidden_foot.h"
+#include "lidar_upsampling/units.h"
 #include "lidar_upsampling/vision/projection.h"
 
 namespace lidar_upsampling {
 namespace {
-
-constexpr double kDegree = 3.14159265358979323846 / 180;
 
 bool within(double value, double low, double high) { return value >= low && value <= high; }
 

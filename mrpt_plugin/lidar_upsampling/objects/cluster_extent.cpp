@@ -6,10 +6,11 @@
 #include <limits>
 #include <opencv2/imgproc.hpp>
 
+#include "lidar_upsampling/units.h"
+
 namespace lidar_upsampling {
 namespace {
 
-constexpr double kDegree = 3.14159265358979323846 / 180;
 constexpr std::size_t kFootprintPoints = 600;  ///< so many draw it to a few centimetres
 
 }  // namespace

@@ -9,11 +9,11 @@
 #include <utility>
 
 #include "lidar_upsampling/registration/object_registration.h"
+#include "lidar_upsampling/units.h"
 
 namespace lidar_upsampling {
 namespace {
 
-constexpr double kRadian = M_PI / 180;
 constexpr double kMaxRise_m = 0.1;  // between two scans, what a road user may rise or sink
 
 /// The points' mean, and that of those farthest to either side as the sensor sees them: an object
@@ -196,9 +196,9 @@ MotionPrior expect_motion(const std::optional<KnownMotion>& known, Stamp key_sta
   prior.height_sigma_m = options.ground ? options.height_sigma_m + options.height_rate_sigma * dt
                                         : options.unknown_speed_sigma * dt;
   prior.tilt_sigma = options.ground
-                         ? kRadian * (options.tilt_sigma_deg + options.tilt_rate_sigma_deg * dt)
+                         ? kDegree * (options.tilt_sigma_deg + options.tilt_rate_sigma_deg * dt)
                          : kAnyTilt;
-  prior.yaw_sigma = options.yaw_rate_sigma * dt + kRadian * options.tilt_sigma_deg;
+  prior.yaw_sigma = options.yaw_rate_sigma * dt + kDegree * options.tilt_sigma_deg;
   if (!known) {
     prior.position_covariance =
         std::pow(options.unknown_speed_sigma * dt, 2) * Eigen::Matrix2d::Identity();

@@ -10,10 +10,10 @@
 #include <cmath>
 #include <nanoflann.hpp>
 
+#include "lidar_upsampling/units.h"
+
 namespace lidar_upsampling {
 namespace {
-
-constexpr double kDegree = 3.14159265358979323846 / 180;
 
 /// Stand-ins for the points of one voxel each, with heights squeezed where rings lie far apart.
 struct Representatives {

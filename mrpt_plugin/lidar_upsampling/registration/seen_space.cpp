@@ -10,10 +10,11 @@
 #include <limits>
 #include <vector>
 
+#include "lidar_upsampling/units.h"
+
 namespace lidar_upsampling {
 namespace {
 
-constexpr double kDegree = M_PI / 180;
 constexpr float kHighest = static_cast<float>(45 * kDegree);
 constexpr float kTurn = static_cast<float>(2 * M_PI);
 constexpr double kColumn_deg = 0.5;  // wider than any spinning LiDAR's step

@@ -5,10 +5,10 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 
+#include "lidar_upsampling/units.h"
+
 namespace lidar_upsampling {
 namespace {
-
-constexpr double kDegree = 3.14159265358979323846 / 180;
 
 void check(const PlaneOptions& options) {
   const auto complain = [](const std::string& what, double value) {

@@ -8,16 +8,16 @@
 namespace lidar_upsampling {
 namespace {
 
-constexpr int kStatic = -1;
+constexpr int kNobody = -1;
 
-// For each point of the key scan, the object that moves it: its position in `objects`, or kStatic.
+// For each point of the key scan, the object that moves it: its position in `objects`, or kNobody.
 std::vector<int> owners_of_points(std::size_t num_points,
                                   const std::vector<ObjectMotion>& objects) {
-  std::vector<int> owner(num_points, kStatic);
+  std::vector<int> owner(num_points, kNobody);
   for (int i = 0; i < static_cast<int>(objects.size()); ++i)
     for (const int point : objects[i].points) {
       int& current = owner[point];
-      if (current == kStatic || objects[current].num_inliers < objects[i].num_inliers) current = i;
+      if (current == kNobody || objects[current].num_inliers < objects[i].num_inliers) current = i;
     }
   return owner;
 }
@@ -57,13 +57,13 @@ VirtualScan compose_virtual_scan(const LidarScan& key_scan, ScanMotion motion,
     keep = seen_by_any(motion.cameras, key_scan.T_vehicle_lidar, moved);
   if (options.objects == MovingObjects::drop)
     for (std::size_t i = 0; i < keep.size(); ++i)
-      if (owner[i] != kStatic && moves(motion.objects[owner[i]])) keep[i] = 0;
+      if (owner[i] != kNobody && moves(motion.objects[owner[i]])) keep[i] = 0;
 
   VirtualScan result;
   for (int i = 0; i < static_cast<int>(keep.size()); ++i)
     if (keep[i] != 0) result.source_index.push_back(i);
   for (const int i : result.source_index)
-    result.track_id.push_back(owner[i] == kStatic ? kStatic : motion.objects[owner[i]].track_id);
+    result.track_id.push_back(owner[i] == kNobody ? kNobody : motion.objects[owner[i]].track_id);
 
   result.scan.stamp = motion.stamp;
   result.scan.label = output_label;

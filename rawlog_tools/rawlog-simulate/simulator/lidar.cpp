@@ -22,7 +22,7 @@ struct Return {
 
 constexpr int kBundle = 16;
 
-struct Instant {
+struct ScanInstant {
   const World& world;
   const LidarSpec& lidar;
   Scene scene;
@@ -31,14 +31,14 @@ struct Instant {
   std::uint32_t seed;
 };
 
-Instant instant_at(const World& world, const LidarSpec& lidar, double t, std::uint32_t seed) {
+ScanInstant instant_at(const World& world, const LidarSpec& lidar, double t, std::uint32_t seed) {
   Scene scene = scene_at(world, t);
   const Pose T_world_lidar = world.T_world_vehicle(t) * lidar.T_vehicle_lidar;
   View view(scene, T_world_lidar.translation());
   return {world, lidar, std::move(scene), T_world_lidar, std::move(view), seed};
 }
 
-RayBundle bundle_of(const Instant& now, int ring_from, int ring_to, int column_from,
+RayBundle bundle_of(const ScanInstant& now, int ring_from, int ring_to, int column_from,
                     int column_to) {
   const Eigen::Matrix3d R = now.T_world_lidar.linear();
   RayBundle bundle;
@@ -60,7 +60,7 @@ RayBundle bundle_of(const Instant& now, int ring_from, int ring_to, int column_f
   return bundle;
 }
 
-Return measured(const Instant& now, const RayHit& hit, const Eigen::Vector3d& direction,
+Return measured(const ScanInstant& now, const RayHit& hit, const Eigen::Vector3d& direction,
                 std::uint32_t beam) {
   const LidarSpec& lidar = now.lidar;
   if (!hit.any() || hit.range < lidar.min_range_m || hit.range > lidar.max_range_m) return {};
@@ -85,7 +85,7 @@ Return measured(const Instant& now, const RayHit& hit, const Eigen::Vector3d& di
   return {static_cast<float>(range), bright * (0.35F + 0.65F * facing), hit.object};
 }
 
-void scan_columns(const Instant& now, int column_from, int column_to,
+void scan_columns(const ScanInstant& now, int column_from, int column_to,
                   std::vector<Return>& returns) {
   const int num_rings = now.lidar.num_rings();
   for (int ring_from = 0; ring_from < num_rings; ring_from += kBundle) {
@@ -150,11 +150,11 @@ SimulatedScan scan_at(const World& world, const LidarSpec& lidar, Stamp stamp, s
   std::vector<Return> returns(static_cast<std::size_t>(lidar.num_rings()) * lidar.columns);
   if (lidar.sweep) {
     tbb::parallel_for(0, lidar.columns, [&](int column) {
-      const Instant now = instant_at(world, lidar, t + sweep_time(lidar, column), own);
+      const ScanInstant now = instant_at(world, lidar, t + sweep_time(lidar, column), own);
       scan_columns(now, column, column, returns);
     });
   } else {
-    const Instant now = instant_at(world, lidar, t, own);
+    const ScanInstant now = instant_at(world, lidar, t, own);
     const int num_bundles = (lidar.columns + kBundle - 1) / kBundle;
     tbb::parallel_for(0, num_bundles, [&](int i) {
       scan_columns(now, i * kBundle, std::min((i + 1) * kBundle, lidar.columns) - 1, returns);

@@ -7,11 +7,11 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "lidar_upsampling/units.h"
+
 namespace lidar_upsampling::sim {
 
 namespace {
-
-constexpr double kRadian = M_PI / 180;
 
 [[noreturn]] void refuse_phase(const std::string& text, const std::string& item) {
   throw std::invalid_argument(
@@ -78,8 +78,8 @@ std::vector<MotionPhase> parse_phases(const std::string& text) {
       {"constant", {}},
       {"brake", {{0.5, -4, 0}}},
       {"accelerate", {{0, 2.5, 0}}},
-      {"turn_left", {{0, 0, 35 * kRadian}}},
-      {"turn_right", {{0, 0, -35 * kRadian}}}};
+      {"turn_left", {{0, 0, 35 * kDegree}}},
+      {"turn_right", {{0, 0, -35 * kDegree}}}};
   if (const auto it = named.find(text); it != named.end()) return it->second;
 
   std::vector<MotionPhase> phases;
@@ -91,7 +91,7 @@ std::vector<MotionPhase> parse_phases(const std::string& text) {
     std::string rest;
     if (!(numbers >> phase.t >> phase.acceleration >> yaw_rate_deg) || numbers >> rest)
       refuse_phase(text, item);
-    phase.yaw_rate = yaw_rate_deg * kRadian;
+    phase.yaw_rate = yaw_rate_deg * kDegree;
     if (phase.t < 0 || (!phases.empty() && phase.t <= phases.back().t)) {
       throw std::invalid_argument("motion \"" + text + "\": its times must grow from 0 on");
     }

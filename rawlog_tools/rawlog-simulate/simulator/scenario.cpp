@@ -8,14 +8,13 @@
 #include <limits>
 #include <stdexcept>
 
+#include "lidar_upsampling/units.h"
 #include "simulator/section_reader.h"
 #include "simulator/sensor_sections.h"
 
 namespace lidar_upsampling::sim {
 
 namespace {
-
-constexpr double kRadian = M_PI / 180;
 
 void read_scenario(SectionReader section, Scenario& scenario) {
   section.text("name", scenario.name);
@@ -27,7 +26,7 @@ void read_scenario(SectionReader section, Scenario& scenario) {
 void read_motion(SectionReader& section, MotionProfile& motion) {
   section.number("x_m", motion.x);
   section.number("y_m", motion.y);
-  section.number("yaw_deg", motion.yaw, -360, 360, kRadian);
+  section.number("yaw_deg", motion.yaw, -360, 360, kDegree);
   section.number("speed_mps", motion.speed, 0, 100);
   std::string phases;
   if (section.text("motion", phases)) motion.phases = parse_phases(phases);
@@ -35,8 +34,8 @@ void read_motion(SectionReader& section, MotionProfile& motion) {
 
 void read_ego(SectionReader section, EgoSpec& ego) {
   read_motion(section, ego.motion);
-  section.number("pitch_sway_deg", ego.pitch_sway, 0, 10, kRadian);
-  section.number("roll_sway_deg", ego.roll_sway, 0, 10, kRadian);
+  section.number("pitch_sway_deg", ego.pitch_sway, 0, 10, kDegree);
+  section.number("roll_sway_deg", ego.roll_sway, 0, 10, kDegree);
   section.number("heave_m", ego.heave, 0, 0.5);
   section.finish();
 }

@@ -4,11 +4,11 @@
 
 #include <algorithm>
 
+#include "lidar_upsampling/units.h"
+
 namespace lidar_upsampling::sim {
 
 namespace {
-
-constexpr double kRadian = M_PI / 180;
 
 // "position_m = x y z" and "orientation_deg = yaw pitch roll", of an x-forward sensor on the
 // vehicle.
@@ -18,9 +18,9 @@ void read_mounting(SectionReader& section, Pose& T_vehicle_sensor) {
     T_vehicle_sensor.translation() << values[0], values[1], values[2];
   }
   if (section.numbers("orientation_deg", values, 3)) {
-    T_vehicle_sensor.linear() = (Eigen::AngleAxisd(values[0] * kRadian, Eigen::Vector3d::UnitZ()) *
-                                 Eigen::AngleAxisd(values[1] * kRadian, Eigen::Vector3d::UnitY()) *
-                                 Eigen::AngleAxisd(values[2] * kRadian, Eigen::Vector3d::UnitX()))
+    T_vehicle_sensor.linear() = (Eigen::AngleAxisd(values[0] * kDegree, Eigen::Vector3d::UnitZ()) *
+                                 Eigen::AngleAxisd(values[1] * kDegree, Eigen::Vector3d::UnitY()) *
+                                 Eigen::AngleAxisd(values[2] * kDegree, Eigen::Vector3d::UnitX()))
                                     .toRotationMatrix();
   }
 }
@@ -52,14 +52,14 @@ void read_beams(SectionReader& section, LidarSpec& lidar) {
   const bool given_too = section.number("fov_down_deg", down_deg, -90, up_deg);
   std::vector<double> list;
   if (section.numbers("elevations_deg", list, rings)) {
-    for (const double degrees : list) lidar.elevations.push_back(degrees * kRadian);
+    for (const double degrees : list) lidar.elevations.push_back(degrees * kDegree);
     std::sort(lidar.elevations.begin(), lidar.elevations.end());
   } else if (rings == 64 && !given && !given_too) {
     lidar.elevations = hdl64_elevations();
   } else {
     for (unsigned i = 0; i < rings; ++i) {
       const double share = rings > 1 ? static_cast<double>(i) / (rings - 1) : 0;
-      lidar.elevations.push_back((down_deg + share * (up_deg - down_deg)) * kRadian);
+      lidar.elevations.push_back((down_deg + share * (up_deg - down_deg)) * kDegree);
     }
   }
 }

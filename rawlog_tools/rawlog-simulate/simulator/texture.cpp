@@ -15,12 +15,6 @@ using Eigen::Vector3f;
 
 constexpr double kGroundFloor = 4.1, kFloor = 3.1, kBay = 2.4;
 
-Vector3f gray(double value) { return Vector3f::Constant(static_cast<float>(value)); }
-
-void put(Surface& surface, const Vector3f& color, float share) {
-  surface.albedo = blended(surface.albedo, color, share);
-}
-
 // A window's own look (curtains, blinds, lights), fading where windows are as small as the filter.
 Vector3f pane(std::uint32_t seed, int bay, int floor, double up, double size) {
   const auto own = static_cast<float>(uniform(seed + 31 * bay, static_cast<std::uint32_t>(floor)));

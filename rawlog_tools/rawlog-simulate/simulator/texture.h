@@ -37,4 +37,13 @@ struct SurfacePoint {
   return a + (b - a) * share;
 }
 
+[[nodiscard]] inline Eigen::Vector3f gray(double value) {
+  return Eigen::Vector3f::Constant(static_cast<float>(value));
+}
+
+/// Paints `share` of the surface.
+inline void put(Surface& surface, const Eigen::Vector3f& color, float share) {
+  surface.albedo = blended(surface.albedo, color, share);
+}
+
 }  // namespace lidar_upsampling::sim

@@ -14,18 +14,12 @@ using Eigen::Vector3f;
 
 const NoiseSpectrum kWeathering{0.8, 7, 0.85};
 
-Vector3f gray(double value) { return Vector3f::Constant(static_cast<float>(value)); }
-
 // Something rectangular on a face seen along x (front, rear) or y (sides).
 float patch(const SurfacePoint& p, int axis, const Eigen::Vector2d& across,
             const Eigen::Vector2d& height) {
   const double value = axis == 1 ? std::abs(p.position.y()) : p.position.x();
   return stripe(value, across[0], across[1], p.extent[axis]) *
          stripe(p.position.z(), height[0], height[1], p.extent.z());
-}
-
-void put(Surface& surface, const Vector3f& color, float share) {
-  surface.albedo = blended(surface.albedo, color, share);
 }
 
 void put_glass(Surface& surface, float share, const VehicleShape& shape, double z) {
