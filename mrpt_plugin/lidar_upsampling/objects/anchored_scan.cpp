@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lidar_upsampling/objects/beam_step.h"
+#include "lidar_upsampling/units.h"
+
 namespace lidar_upsampling {
 
 Neighbourhood sampling_of(const LidarScan& scan, const CameraModel& camera) {
@@ -19,8 +22,8 @@ Neighbourhood sampling_of(const LidarScan& scan, const CameraModel& camera) {
   }
   const double ring_step_px = camera.fy * std::max(0., highest - lowest) / (scan.num_rings - 1);
   result.half_height_px = std::clamp(1.3 * ring_step_px, 3., 60.);
-  if (scan.num_columns > 0)
-    result.half_width_px = std::clamp(2.6 * camera.fx * 2 * M_PI / scan.num_columns, 3., 30.);
+  if (const auto step = estimate_horizontal_step_deg(scan))
+    result.half_width_px = std::clamp(2.6 * camera.fx * *step * kDegree, 3., 30.);
   return result;
 }
 

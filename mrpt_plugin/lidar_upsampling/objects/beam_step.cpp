@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
+#include <vector>
 
 #include "lidar_upsampling/units.h"
 
@@ -65,6 +67,25 @@ double estimate_vertical_step_deg(const LidarScan& scan) {
   if (highest <= lowest) return kDefaultVerticalStepDeg;
   const double span = sum[highest] / count[highest] - sum[lowest] / count[lowest];
   return std::abs(span) / kDegree / (highest - lowest);
+}
+
+std::optional<double> estimate_horizontal_step_deg(const LidarScan& scan) {
+  constexpr int kEnough = 2000;  // pairs
+  constexpr int kEveryRing = 4;
+  if (scan.num_rings <= 0 || scan.column.size() != scan.size()) return std::nullopt;
+  std::vector<std::ptrdiff_t> last(scan.num_rings, -1);  // point of each ring, in the scan's order
+  std::vector<double> steps;
+  for (std::size_t i = 0; i < scan.size() && steps.size() < kEnough; ++i) {
+    if (scan.ring[i] % kEveryRing != 0) continue;
+    const std::ptrdiff_t before = std::exchange(last[scan.ring[i]], i);
+    if (before < 0 || std::abs(scan.column[i] - scan.column[before]) != 1) continue;
+    const Eigen::Vector2f a = scan.points[before].head<2>(), b = scan.points[i].head<2>();
+    steps.push_back(std::abs(std::atan2(a.x() * b.y() - a.y() * b.x(), a.dot(b))) / kDegree);
+  }
+  if (steps.empty()) return std::nullopt;
+  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
+  std::nth_element(steps.begin(), middle, steps.end());
+  return *middle;
 }
 
 }  // namespace lidar_upsampling

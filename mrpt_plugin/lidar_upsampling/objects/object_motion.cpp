@@ -31,12 +31,16 @@ double evidence_of_motion(const Correspondences& correspondences, const MotionQu
                           const AbsolutePose& moving, const Pose& T_parked,
                           const ObjectMotionOptions& options) {
   const double before = options.prior.any() ? query.known_evidence : 0;
-  if (distance_px(correspondences, query.camera, T_parked, moving.T_camera_source) <=
-      options.static_tolerance_px)
-    return before;
+  const double distance =
+      distance_px(correspondences, query.camera, T_parked, moving.T_camera_source);
+  // What ego-motion and calibration are wrong by moves all points alike: it is no evidence, near
+  // the tolerance as little as below it.
+  const double share = 1 - std::pow(options.static_tolerance_px / distance, 2);
+  if (!(share > 0)) return before;
   const double sigma = std::max(0.5 * options.pose.sigma_px, moving.rmse_px);
-  return before + (picture_cost(correspondences, query.camera, T_parked, sigma) -
-                   picture_cost(correspondences, query.camera, moving.T_camera_source, sigma)) /
+  return before + share *
+                      (picture_cost(correspondences, query.camera, T_parked, sigma) -
+                       picture_cost(correspondences, query.camera, moving.T_camera_source, sigma)) /
                       options.pose.points_per_observation;
 }
 

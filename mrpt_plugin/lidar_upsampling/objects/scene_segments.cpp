@@ -31,7 +31,7 @@ SceneSegments segment_scan(const LidarScan& scan, const SegmentOptions& options)
   segments.vertical_step_deg = estimate_vertical_step_deg(scan);
   ClusterOptions clustering = options.clusters;
   clustering.vertical_step_deg = segments.vertical_step_deg;
-  if (scan.num_columns > 0) clustering.horizontal_step_deg = 360. / scan.num_columns;
+  if (const auto step = estimate_horizontal_step_deg(scan)) clustering.horizontal_step_deg = *step;
   segments.clusters = euclidean_clusters(
       scan.points, points_above_ground(scan, segments.ground, options), clustering);
   segments.cluster_of.assign(scan.size(), -1);
