@@ -93,9 +93,10 @@ void LidarUpsampler::expect_next(const LidarScan& next) {
   LidarScan straight = next;
   const Pose T_lidar_next_lidar_k = take_up(straight, nullptr);
   const Stopwatch watch(timing_, "next scan");
+  const double vertical_step_deg = estimate_vertical_step_deg(straight);
   next_ = std::make_unique<NextScan>(NextScan{
       next.stamp, Surface(without_ground(straight, config_.segments.ground)), T_lidar_next_lidar_k,
-      SeenSpace(straight.points, estimate_vertical_step_deg(straight)), key_->seen.get()});
+      SeenSpace(straight.points, vertical_step_deg), key_->seen.get(), vertical_step_deg});
 }
 
 std::optional<VirtualScan> LidarUpsampler::insert_image(const CameraImage& image, Effort effort) {

@@ -29,7 +29,8 @@ Points vehicle(float x) {
 }
 
 NextScan next_scan(const Points& points, const Pose& T_next_k = Pose::Identity()) {
-  return {shifted(Stamp{}, kScanPeriod), Surface(points), T_next_k, SeenSpace(points, kRings_deg)};
+  return {shifted(Stamp{}, kScanPeriod), Surface(points), T_next_k,
+          SeenSpace(points, kRings_deg), nullptr,         kRings_deg};
 }
 
 std::optional<MotionToNext> measured(const NextScan& next,
@@ -107,6 +108,16 @@ TEST(MeasureToNext, what_is_hidden_by_then_does_not_speak_against_a_step) {
       measure_to_next({rear(12), Stamp{}, {guess}, kAnywhere, false}, next_scan(next));
   ASSERT_TRUE(motion);
   EXPECT_NEAR(motion->step.mean.x(), 0.8, 0.03);
+}
+
+TEST(MeasureToNext, the_farther_apart_the_rings_the_less_sure_is_the_step) {
+  NextScan next = next_scan(vehicle(13.2F));
+  const auto dense = measured(next);
+  next.vertical_step_deg = 2;
+  const auto sparse = measured(next);
+  ASSERT_TRUE(dense && sparse);
+  EXPECT_EQ(sparse->step.mean, dense->step.mean);
+  EXPECT_GT(sparse->step.covariance.trace(), 2 * dense->step.covariance.trace());
 }
 
 MotionToNext two_metres_in(double seconds) {

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "lidar_upsampling/registration/object_registration.h"
+#include "lidar_upsampling/units.h"
 
 namespace lidar_upsampling {
 namespace {
@@ -15,6 +16,7 @@ constexpr double kSearch_m = 2;          // around rest, for objects of which no
 constexpr double kImprobable = 16;       // chi-square of two degrees of freedom
 constexpr double kMaxRise_m = 0.1;       // what a road user may rise or sink
 constexpr double kUnevenness_m = 0.04;   // of the ground, and twice what is told of heights
+constexpr double kSlope = 0.1;           // of what rings pass over, per height: a place ahead
 constexpr double kUnexplained_m = 0.05;  // by which an expectation may be off anyway
 
 ObjectRegistrationOptions registration_options(bool search) {
@@ -71,12 +73,15 @@ std::optional<MotionToNext> measure_to_next(const SoughtObject& object, const Ne
   motion.T_mov = T_next_k.inverse() * found.T_target_object;
   motion.step.mean = (motion.T_mov * motion.centroid_k - motion.centroid_k).head<2>();
   const double rise = std::abs((motion.T_mov * motion.centroid_k - motion.centroid_k).z());
-  // Neighbouring points err alike: ten count as one. What rises from the ground has slid up an
-  // inclined surface, or from ring to ring.
+  // Neighbouring points err alike: ten count as one. Both scans' rings cut a sloping surface at
+  // other heights. What rises from the ground has slid up an inclined surface, or from ring to
+  // ring.
   const double count =
       std::min<double>(static_cast<double>(object.points.size()), options.max_points) / 10;
-  const double sigma = std::hypot(kRegistrationSigma_m, found.residual_m / std::sqrt(count),
-                                  std::max(0., rise - kUnevenness_m));
+  const double ring_gap_m = std::tan(next.vertical_step_deg * kDegree) * motion.centroid_k.norm();
+  const double sigma = Eigen::Vector4d(kRegistrationSigma_m, found.residual_m / std::sqrt(count),
+                                       kSlope * ring_gap_m, std::max(0., rise - kUnevenness_m))
+                           .norm();
   const Eigen::Matrix2d turn = T_next_k.linear().transpose().topLeftCorner<2, 2>();
   motion.step.covariance =
       sigma * sigma * Eigen::Matrix2d::Identity() + turn * found.slack * turn.transpose();

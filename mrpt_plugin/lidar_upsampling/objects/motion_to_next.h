@@ -20,6 +20,7 @@ struct NextScan {
   Pose T_lidar_next_lidar_k = Pose::Identity();  ///< ego-motion
   SeenSpace seen;                                ///< lidar frame at `stamp`
   const SeenSpace* seen_k = nullptr;             ///< by the key scan; null: not asked
+  double vertical_step_deg = 0;                  ///< between rings
 };
 
 /// An object of the key scan that is looked for in the next one.
