@@ -107,6 +107,7 @@ void use_next_scan(Candidate& candidate, Question& question, const CameraView& v
     question.motion.num_inliers = 0;
   }
   MotionQuery on_the_way = query;
+  on_the_way.next_tells = false;
   const bool alone = static_cast<int>(question.pairs.size()) < options.min_points;
   on_the_way.known_evidence = evidence_of_motion(travel, dt_next, alone);
   on_the_way.known_moving = candidate.known && candidate.known->found_moving;

@@ -146,7 +146,7 @@ enum class Resampling {
 struct VirtualScan {
   LidarScan scan;                             ///< stamp = the image's; label = the output label
   Stamp key_stamp;                            ///< of the real scan it was made from
-  std::vector<int> source_index;              ///< of each point, in the key scan
+  std::vector<int> source_index;              ///< of each point, in the key scan; -1: in none
   std::vector<int> track_id;                  ///< of each point, -1: static scene
   std::vector<ObjectMotion> objects;          ///< every candidate, whatever became of it
   Pose T_lidar_t_lidar_k = Pose::Identity();  ///< static scene (eq. 4, T_S)

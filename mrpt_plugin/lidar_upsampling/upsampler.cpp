@@ -8,6 +8,7 @@
 
 #include "lidar_upsampling/camera_view.h"
 #include "lidar_upsampling/key_scan.h"
+#include "lidar_upsampling/next_view.h"
 #include "lidar_upsampling/objects/beam_step.h"
 #include "lidar_upsampling/se3.h"
 #include "lidar_upsampling/stopwatch.h"
@@ -73,17 +74,23 @@ std::optional<VirtualScan> LidarUpsampler::insert_scan(LidarScan scan) {
     key->stamp_before = key_->scan.stamp;
   }
   key->scan = std::move(scan);
+  // Points that were measured at one instant are those that were looked at as the next scan's.
+  if (is_next && next_view_ && config_.sweep.scan_time == ScanTime::none) {
+    key->segments = std::move(next_view_->segments);
+    key->resampler = std::move(next_view_->resampler);
+  }
   key_ = std::move(key);
   {
     const Stopwatch watch(timing_, "seen space");
     key_->seen = std::make_unique<const SeenSpace>(key_->scan.points,
                                                    estimate_vertical_step_deg(key_->scan));
   }
-  if (config_.resample == "beam") {
+  if (config_.resample == "beam" && !key_->resampler) {
     const Stopwatch watch(timing_, "beams");
     key_->resampler = std::make_unique<const BeamResampler>(key_->scan, config_.resampling);
   }
   next_.reset();
+  next_view_.reset();
   for (auto& [label, view] : views_) view->anchor.reset();
   return waiting;
 }
@@ -97,6 +104,12 @@ void LidarUpsampler::expect_next(const LidarScan& next) {
   next_ = std::make_unique<NextScan>(NextScan{
       next.stamp, Surface(without_ground(straight, config_.segments.ground)), T_lidar_next_lidar_k,
       SeenSpace(straight.points, vertical_step_deg), key_->seen.get(), vertical_step_deg});
+  if (!key_->resampler) return;
+  next_view_ =
+      std::make_unique<NextView>(NextView{std::move(straight), T_lidar_next_lidar_k, {}, nullptr});
+  next_view_->segments = segment_scan(next_view_->scan, config_.segments);
+  next_view_->resampler =
+      std::make_unique<const BeamResampler>(next_view_->scan, config_.resampling);
 }
 
 std::optional<VirtualScan> LidarUpsampler::insert_image(const CameraImage& image, Effort effort) {
@@ -138,12 +151,22 @@ std::optional<VirtualScan> LidarUpsampler::flush() {
   learn(motion.objects, newest.instant);
 
   Stopwatch watch(timing_, "composition");
+  std::optional<VirtualScan> of_next;
+  if (next_view_)
+    of_next = compose_virtual_scan(next_view_->scan,
+                                   motion_of_next(*next_view_, motion, key_->scan, *key_->seen), {},
+                                   config_.compose);
   VirtualScan scan = compose_virtual_scan(key_->scan, std::move(motion),
                                           config_.virtual_label(key_->scan.label), config_.compose);
   watch.stop();
   if (key_->resampler) {
     const Stopwatch watch_beams(timing_, "resampling");
-    scan = key_->resampler->resample(std::move(scan));
+    if (of_next) {
+      const BeamResampler::OtherView other{*next_view_->resampler, *of_next};
+      scan = key_->resampler->resample(std::move(scan), &other);
+    } else {
+      scan = key_->resampler->resample(std::move(scan));
+    }
   }
   if (config_.sweep.scan_time != ScanTime::none)
     scan.scan.time_s.clear();  // all are of one instant

@@ -19,6 +19,7 @@ struct CameraView;
 struct ImageResult;
 struct KnownMotion;
 struct NextScan;
+struct NextView;
 struct Picture;
 
 /// How much work there is time for at an image.
@@ -92,6 +93,7 @@ class LidarUpsampler {
   std::unique_ptr<Detector> detector_;
   std::unique_ptr<KeyScan> key_;
   std::unique_ptr<NextScan> next_;
+  std::unique_ptr<NextView> next_view_;  ///< where virtual scans are drawn from both
   std::map<std::string, std::unique_ptr<CameraView>> views_;
   std::vector<ImageResult> group_;            ///< of the instant under way
   std::map<int, KnownMotion> known_motions_;  ///< by track id

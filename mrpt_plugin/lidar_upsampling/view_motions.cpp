@@ -177,6 +177,7 @@ std::vector<ObjectMotion> estimate_motions(CameraView& view, const Picture& pict
   tbb::parallel_for(std::size_t{0}, questions.size(), [&](std::size_t i) {
     Question& question = questions[i];
     question = question_about(view, i, query, key_scan, options);
+    question.query.next_tells = next != nullptr;
     if (!is_followed) question.pairs.clear();
     question.motion = estimate_object_motion(question.pairs, question.query, options);
     fall_back_on_earlier_images(view, i, question, key_scan, options);

@@ -94,8 +94,8 @@ std::vector<FootprintsOfRow> footprints_of(const Scene& scene, const PatchSet& p
                                            const Columns& columns) {
   std::vector<FootprintsOfRow> footprints;
   footprints.reserve(scene.pattern.rows.size());
-  for (int row = 0; row < scene.pattern.num_rows(); ++row)
-    footprints.emplace_back(scene.pattern, columns, patches, scene.motions, row, 1.5F);
+  for (const BeamRow& row : scene.pattern.rows)
+    footprints.emplace_back(row, scene.pattern, columns, patches, scene.motions, 1.5F);
   return footprints;
 }
 

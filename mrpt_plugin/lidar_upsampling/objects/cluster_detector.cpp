@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "lidar_upsampling/objects/beam_step.h"
 #include "lidar_upsampling/objects/hidden_foot.h"
 #include "lidar_upsampling/units.h"
 #include "lidar_upsampling/vision/projection.h"
@@ -16,16 +17,37 @@ namespace {
 bool within(double value, double low, double high) { return value >= low && value <= high; }
 
 /// But for where it begins above the ground. What one ring shows reaches up to the next, `ring_m`.
+/// One that the sensor's view cuts off may be longer than it seems, `is_cut_off`.
 bool has_size_of_road_user(const ClusterExtent& extent, std::size_t num_points, bool has_ground,
-                           double ring_m, const ClusterDetectorOptions& options) {
+                           double ring_m, bool is_cut_off, const ClusterDetectorOptions& options) {
   if (static_cast<int>(num_points) < options.min_points) return false;
   if (!within(extent.centroid.head<2>().norm(), options.min_range, options.max_range)) return false;
-  if (!within(extent.length, options.min_length, options.max_length)) return false;
+  if (!within(extent.length, is_cut_off ? 0 : options.min_length, options.max_length)) return false;
   if (extent.width > options.max_width) return false;
   if (!has_ground) return within(extent.height(), options.min_height / 2, options.max_height);
   const double top = extent.height() < ring_m / 2 ? extent.top + ring_m : extent.top;
   return top >= options.min_height && extent.top <= options.max_height;
 }
+
+/// Tells clusters at the sides of a view that does not go all around.
+class ViewEdge {
+ public:
+  explicit ViewEdge(const LidarScan& scan) : scan_(scan) {
+    constexpr double kAround_deg = 350;
+    const auto step = estimate_horizontal_step_deg(scan);
+    has_sides_ = step && *step * scan.num_columns < kAround_deg;
+  }
+
+  [[nodiscard]] bool cuts_off(const std::vector<int>& cluster) const {
+    return has_sides_ && std::any_of(cluster.begin(), cluster.end(), [&](int i) {
+             return scan_.column[i] < 2 || scan_.column[i] + 2 >= scan_.num_columns;
+           });
+  }
+
+ private:
+  const LidarScan& scan_;
+  bool has_sides_ = false;
+};
 
 const char* class_by_size(const ClusterExtent& extent) {
   if (extent.length < 1.1F && within(extent.top, 1.2, 2.1)) return "person";
@@ -81,12 +103,15 @@ std::vector<Detection> ClusterDetector::detect(const DetectorInput& input) {
   const bool has_ground = segments.ground.status == GroundStatus::found;
   const int min_box_size =
       input.next_scan_tells ? options_.min_box_size_by_scans : options_.min_box_size;
+  const ViewEdge view_edge(*input.key_scan);
   std::vector<Detection> detections;
   for (std::size_t i = 0; i < segments.clusters.size(); ++i) {
     const auto& cluster = segments.clusters[i];
     const ClusterExtent& extent = segments.extents[i];
     const double ring_m = std::tan(segments.vertical_step_deg * kDegree) * extent.centroid.norm();
-    if (!has_size_of_road_user(extent, cluster.size(), has_ground, ring_m, options_)) continue;
+    if (!has_size_of_road_user(extent, cluster.size(), has_ground, ring_m,
+                               view_edge.cuts_off(cluster), options_))
+      continue;
     if ((input.T_camera_lidar * extent.centroid.cast<double>()).z() <= 0) continue;
     const Seen seen = look_at(i, input);
     if (seen.num_points < options_.min_points ||

@@ -35,8 +35,9 @@ double evidence_of_motion(const Correspondences& correspondences, const MotionQu
       distance_px(correspondences, query.camera, T_parked, moving.T_camera_source);
   // What ego-motion and calibration are wrong by moves all points alike: it is no evidence, near
   // the tolerance as little as below it.
-  const double share = 1 - std::pow(options.static_tolerance_px / distance, 2);
-  if (!(share > 0)) return before;
+  const double beyond = 1 - std::pow(options.static_tolerance_px / distance, 2);
+  if (!(beyond > 0)) return before;
+  const double share = query.next_tells ? 1 : beyond;
   const double sigma = std::max(0.5 * options.pose.sigma_px, moving.rmse_px);
   return before + share *
                       (picture_cost(correspondences, query.camera, T_parked, sigma) -

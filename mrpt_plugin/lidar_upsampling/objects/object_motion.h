@@ -37,6 +37,7 @@ struct MotionQuery {
   Pose T_lidar_t_lidar_k = Pose::Identity();  ///< ego-motion
   Eigen::Vector3d centroid_lidar_k = Eigen::Vector3d::Zero();
   double known_evidence = 0;  ///< of motion between the last two scans, as a chi-square
+  bool next_tells = false;    ///< the next scan is to decide: a hint of motion is enough
   bool known_moving = false;  ///< found to move before: goes on where nothing else is told
   MotionPrior prior;          ///< object motion to expect
   double dt = 0;              ///< s, from the key scan to the image

@@ -15,9 +15,9 @@ RowCaster::RowCaster(const CastScene& scene, const ResampleOptions& options)
 
 const std::vector<BeamHit>& RowCaster::cast(int row, const RowBeams& beams) {
   take_row(row, beams);
-  for (int from = 0; from < scene_.pattern.num_rows(); ++from) {
-    const auto [begin, end] = scene_.footprints[from].on_row(row);
-    for (const Footprint* print = begin; print != end; ++print) meet(*print, from, beams);
+  for (const FootprintsOfRow& from : scene_.footprints) {
+    const auto [begin, end] = from.on_row(row);
+    for (const Footprint* print = begin; print != end; ++print) meet(*print, from.origin(), beams);
   }
   result_.clear();
   for (int k = 0; k < static_cast<int>(beams.beams.size()); ++k)
@@ -47,11 +47,10 @@ void RowCaster::take_row(int row, const RowBeams& beams) {
 }
 
 // Four beams at a time.
-void RowCaster::meet(const Footprint& print, int from_row, const RowBeams& beams) {
+void RowCaster::meet(const Footprint& print, const Eigen::Vector3f& origin, const RowBeams& beams) {
   const int motion = scene_.motions.of_patch[print.patch];
   const Patch& patch = scene_.patches.patch(print.patch);
-  const Eigen::Array4f from =
-      patch.in_frame(origins_[motion] - scene_.pattern.rows[from_row].origin());
+  const Eigen::Array4f from = patch.in_frame(origins_[motion] - origin);
   Eigen::Matrix<float, 4, 3> turned_frame;
   if (motion != 0) turned_frame = patch.frame * turns_[motion];
   const auto& frame = motion == 0 ? patch.frame : turned_frame;

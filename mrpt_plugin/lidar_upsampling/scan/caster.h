@@ -28,7 +28,7 @@ struct CastScene {
   const BeamPattern& pattern;
   const PatchSet& patches;
   const PatchMotions& motions;
-  const std::vector<FootprintsOfRow>& footprints;  ///< of each row
+  const std::vector<FootprintsOfRow>& footprints;  ///< of each row whose patches they are
 };
 
 /// @brief Finds the first moved patch in the way of each beam of a row. All arguments must outlive
@@ -51,7 +51,7 @@ class RowCaster {
   };
 
   void take_row(int row, const RowBeams& beams);
-  void meet(const Footprint& print, int from_row, const RowBeams& beams);
+  void meet(const Footprint& print, const Eigen::Vector3f& origin, const RowBeams& beams);
   [[nodiscard]] BeamHit hit_of(int beam, bool is_measured) const;
   template <typename Visit>
   void for_each(int beam, Visit visit) const {

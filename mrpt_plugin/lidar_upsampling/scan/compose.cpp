@@ -59,6 +59,8 @@ VirtualScan compose_virtual_scan(const LidarScan& key_scan, ScanMotion motion,
     for (std::size_t i = 0; i < keep.size(); ++i)
       if (owner[i] != kNobody && moves(motion.objects[owner[i]])) keep[i] = 0;
 
+  for (const int i : motion.left_out) keep[i] = 0;
+
   VirtualScan result;
   for (int i = 0; i < static_cast<int>(keep.size()); ++i)
     if (keep[i] != 0) result.source_index.push_back(i);

@@ -26,7 +26,8 @@ struct ScanMotion {
   Pose T_lidar_t_lidar_k = Pose::Identity();  ///< static scene
   bool ego_extrapolated = false;
   std::vector<ObjectMotion> objects;
-  std::vector<Camera> cameras;  ///< those that saw the scene at `stamp`
+  std::vector<Camera> cameras;     ///< those that saw the scene at `stamp`
+  std::vector<int> left_out = {};  ///< points of the key scan that the virtual one is to be without
 };
 
 /// @brief The key scan as it would be at the image's instant: static points moved by T_S (paper,

@@ -49,11 +49,11 @@ struct Print {
 // Finds what an outline covers, from what the one before did.
 class Coverage {
  public:
-  Coverage(const BeamPattern& pattern, int row)
+  Coverage(const BeamPattern& pattern, const BeamRow& own)
       : pattern_(pattern),
-        origin_height_(pattern.rows[row].origin_height),
+        origin_height_(own.origin_height),
         slack_(static_cast<int>(std::ceil(2 * pattern.scatter - 0.5F))),
-        guess_(row) {}
+        guess_(pattern.num_rows() / 2) {}
 
   [[nodiscard]] Cover of(const Outline& outline) {
     const float x = 0.25F * outline.x.sum(), y = 0.25F * outline.y.sum();
@@ -105,14 +105,13 @@ void add_prints(const Cover& cover, int patch, const Columns& columns, std::vect
 
 }  // namespace
 
-FootprintsOfRow::FootprintsOfRow(const BeamPattern& pattern, const Columns& columns,
-                                 const PatchSet& patches, const PatchMotions& motions, int row,
-                                 float reach)
-    : begin_(pattern.num_rows() + 2, 0) {
-  const BeamRow& own = pattern.rows[row];
+FootprintsOfRow::FootprintsOfRow(const BeamRow& own, const BeamPattern& pattern,
+                                 const Columns& columns, const PatchSet& patches,
+                                 const PatchMotions& motions, float reach)
+    : origin_(own.origin()), begin_(pattern.num_rows() + 2, 0) {
   std::vector<Print> prints;
   prints.reserve(own.end - own.begin + 16);
-  Coverage coverage(pattern, row);
+  Coverage coverage(pattern, own);
   for (int i = own.begin; i < own.end; ++i) {
     if (motions.of_patch[i] < 0) continue;
     const Outline outline = outline_of(patches.patch(i), own.origin_height, reach);

@@ -10,7 +10,8 @@
 
 namespace lidar_upsampling {
 
-/// @brief The patches of a key scan; those that a mover's outline changes are replaced.
+/// @brief The patches of a scan, or of several one after the other; those that a mover's outline
+/// changes are replaced.
 struct PatchSet {
   const std::vector<Patch>& patches;
   std::vector<int> replacement;  ///< of each patch, a position in those below; -1: none
@@ -31,9 +32,14 @@ struct Footprint {
 class FootprintsOfRow {
  public:
   FootprintsOfRow() = default;
+  /// @param own whose patches: from `begin` to `end` among all.
+  /// @param pattern of the beams that are to be covered, which may be another scan's.
   /// @param reach of patches, 1: to their edges.
-  FootprintsOfRow(const BeamPattern& pattern, const Columns& columns, const PatchSet& patches,
-                  const PatchMotions& motions, int row, float reach);
+  FootprintsOfRow(const BeamRow& own, const BeamPattern& pattern, const Columns& columns,
+                  const PatchSet& patches, const PatchMotions& motions, float reach);
+
+  /// Of the patches' frames.
+  [[nodiscard]] const Eigen::Vector3f& origin() const { return origin_; }
 
   /// Those on a row, in the order of patches.
   [[nodiscard]] std::pair<const Footprint*, const Footprint*> on_row(int row) const {
@@ -41,6 +47,7 @@ class FootprintsOfRow {
   }
 
  private:
+  Eigen::Vector3f origin_ = Eigen::Vector3f::Zero();
   std::vector<int> begin_;  // of each row
   std::vector<Footprint> prints_;
 };

@@ -14,6 +14,15 @@ constexpr int kStatic = -1;  // as in VirtualScan::track_id
 
 }  // namespace
 
+void PatchMotions::append(const PatchMotions& other) {
+  const auto first = static_cast<int>(forth.size());
+  forth.insert(forth.end(), other.forth.begin(), other.forth.end());
+  back.insert(back.end(), other.back.begin(), other.back.end());
+  track_id.insert(track_id.end(), other.track_id.begin(), other.track_id.end());
+  for (const int motion : other.of_patch)
+    of_patch.push_back(motion == kAbsent ? kAbsent : first + motion);
+}
+
 PatchMotions motions_of(const std::vector<int>& position, const VirtualScan& moved) {
   PatchMotions motions;
   motions.of_patch.assign(position.size(), PatchMotions::kAbsent);

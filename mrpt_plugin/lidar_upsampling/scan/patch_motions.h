@@ -28,6 +28,9 @@ struct Motion {
 
 /// @brief How patches have moved. The static scene's motion comes first.
 struct PatchMotions {
+  /// Goes on with those of another scan's patches.
+  void append(const PatchMotions& other);
+
   static constexpr int kAbsent = -1;  ///< the motion of a patch that does not count
 
   std::vector<Motion> forth;  ///< to where they are now

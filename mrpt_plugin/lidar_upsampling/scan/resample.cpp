@@ -22,8 +22,11 @@ namespace lidar_upsampling {
 struct BeamResampler::Sensor {
   Sensor(const LidarScan& key, BeamPattern found, const ResampleOptions& options);
 
+  void join(const PatchMotions& motions, int at_rest, PatchSet& all,
+            std::vector<BeamRow>& rows) const;
+  // @param other whose patches come after the own ones; null: none.
   void take_hits(const PatchMotions& motions, const std::vector<std::vector<BeamHit>>& hits,
-                 VirtualScan& result) const;
+                 const Sensor* other, VirtualScan& result) const;
 
   std::vector<int> source;    // of each point below, in the key scan
   std::vector<int> position;  // the reverse
@@ -39,16 +42,16 @@ struct BeamResampler::Sensor {
 
 namespace {
 
-void check(const LidarScan& key, const VirtualScan& moved) {
+void check(std::size_t num_points, const VirtualScan& moved) {
   const std::size_t size = moved.scan.size();
   const bool fits = moved.source_index.size() == size && moved.track_id.size() == size &&
                     std::all_of(moved.source_index.begin(), moved.source_index.end(), [&](int i) {
-                      return i >= 0 && static_cast<std::size_t>(i) < key.size();
+                      return i >= 0 && static_cast<std::size_t>(i) < num_points;
                     });
   if (!fits)
     throw std::invalid_argument("resampling: the virtual scan of " + std::to_string(size) +
                                 " points was not made from the key scan of " +
-                                std::to_string(key.size()));
+                                std::to_string(num_points));
 }
 
 LidarScan in_order(const LidarScan& key, const std::vector<int>& order) {
@@ -75,12 +78,14 @@ float farthest_reach(const ResampleOptions& options) {
 }
 
 // Makes those patches anew that a mover's outline changes: its own, and those beside it.
+// @param first of the scan's patches among all. @param at_rest the motion of its static scene.
 void replace_at_movers(const PatchMaker& maker, const BeamPattern& pattern,
-                       const PatchMotions& motions, PatchSet& patches) {
+                       const PatchMotions& motions, int first, int at_rest, PatchSet& patches) {
   const std::vector<BeamNeighbours>& neighbours = maker.neighbours();
-  std::vector<std::uint8_t> is_changed(motions.of_patch.size(), 0);
+  const int* const motion = motions.of_patch.data() + first;
+  std::vector<std::uint8_t> is_changed(neighbours.size(), 0);
   for (int i = 0; i < static_cast<int>(is_changed.size()); ++i) {
-    if (motions.of_patch[i] <= 0) continue;
+    if (motion[i] <= at_rest) continue;
     is_changed[i] = 1;
     for (const Side side : {kRight, kLeft, kDown, kUp})
       // Those of the next one lead here, too, if they go on straight.
@@ -93,8 +98,8 @@ void replace_at_movers(const PatchMaker& maker, const BeamPattern& pattern,
   for (int row = 0; row < pattern.num_rows(); ++row)
     for (int i = pattern.rows[row].begin; i < pattern.rows[row].end; ++i) {
       if (is_changed[i] == 0) continue;
-      patches.replacement[i] = static_cast<int>(patches.new_patches.size());
-      patches.new_patches.push_back(maker.make(row, i, motions.of_patch.data()));
+      patches.replacement[first + i] = static_cast<int>(patches.new_patches.size());
+      patches.new_patches.push_back(maker.make(row, i, motion));
     }
 }
 
@@ -147,7 +152,8 @@ BeamResampler::Sensor::Sensor(const LidarScan& key, BeamPattern found,
 // Ring, column and time are the beam's, intensity and object those of the patch that was hit.
 void BeamResampler::Sensor::take_hits(const PatchMotions& motions,
                                       const std::vector<std::vector<BeamHit>>& hits,
-                                      VirtualScan& result) const {
+                                      const Sensor* other, VirtualScan& result) const {
+  const auto num_own = static_cast<int>(patches.size());
   std::vector<std::size_t> begin(hits.size() + 1, 0);
   for (std::size_t row = 0; row < hits.size(); ++row)
     begin[row + 1] = begin[row] + hits[row].size();
@@ -163,8 +169,11 @@ void BeamResampler::Sensor::take_hits(const PatchMotions& motions,
       to.ring[i] = label.ring;
       if (!to.column.empty()) to.column[i] = label.column;
       if (!to.time_s.empty()) to.time_s[i] = label.time_s;
-      if (!to.intensity.empty()) to.intensity[i] = scan.intensity[hit.patch];
-      result.source_index[i] = source[hit.patch];
+      const bool is_own = hit.patch < num_own;
+      if (!to.intensity.empty())
+        to.intensity[i] =
+            is_own ? scan.intensity[hit.patch] : other->scan.intensity[hit.patch - num_own];
+      result.source_index[i] = is_own ? source[hit.patch] : -1;
       result.track_id[i] = motions.track_id[motions.of_patch[hit.patch]];
       ++i;
     }
@@ -172,32 +181,66 @@ void BeamResampler::Sensor::take_hits(const PatchMotions& motions,
 }
 
 BeamResampler::BeamResampler(const LidarScan& key_scan, const ResampleOptions& options)
-    : key_scan_(key_scan), options_(options) {
+    : num_points_(key_scan.size()), options_(options) {
   if (auto pattern = find_beam_pattern(key_scan))
     sensor_ = std::make_unique<const Sensor>(key_scan, std::move(*pattern), options);
 }
 
 BeamResampler::~BeamResampler() = default;
 
-VirtualScan BeamResampler::resample(VirtualScan moved) const {
-  check(key_scan_, moved);
+// Adds the rows of these patches, which come after those of the rows that are there already, and
+// makes those at movers anew. @param at_rest the motion of the static scene.
+void BeamResampler::Sensor::join(const PatchMotions& motions, int at_rest, PatchSet& all,
+                                 std::vector<BeamRow>& rows) const {
+  const int first = rows.empty() ? 0 : rows.back().end;
+  replace_at_movers(maker, pattern, motions, first, at_rest, all);
+  for (BeamRow row : pattern.rows) {
+    row.begin += first;
+    row.end += first;
+    rows.push_back(row);
+  }
+}
+
+const BeamResampler::Sensor* BeamResampler::sensor_of(const OtherView* other) const {
+  if (other == nullptr || !other->scan.sensor_) return nullptr;
+  check(other->scan.num_points_, other->moved);
+  const bool has_intensity = !sensor_->scan.intensity.empty();
+  const Sensor& sensor = *other->scan.sensor_;
+  return has_intensity && sensor.scan.intensity.empty() ? nullptr : &sensor;
+}
+
+VirtualScan BeamResampler::resample(VirtualScan moved, const OtherView* other) const {
+  check(num_points_, moved);
   moved.resampling = Resampling::no_beams;
   if (!sensor_) return moved;
-  const PatchMotions motions = motions_of(sensor_->position, moved);
+  PatchMotions motions = motions_of(sensor_->position, moved);
   moved.resampling = Resampling::little_motion;
   if (largest_motion(sensor_->scan.points, motions) < options_.min_motion_m) return moved;
   moved.resampling = Resampling::done;
 
+  const Sensor* second = sensor_of(other);
+  const auto own_motions = static_cast<int>(motions.forth.size());
+  std::vector<Patch> both;
+  if (second != nullptr) {
+    motions.append(motions_of(second->position, other->moved));
+    both = sensor_->patches;
+    both.insert(both.end(), second->patches.begin(), second->patches.end());
+  }
+  PatchSet patches{second != nullptr ? both : sensor_->patches,
+                   std::vector<int>(motions.of_patch.size(), -1),
+                   {}};
+  std::vector<BeamRow> rows;
+  sensor_->join(motions, 0, patches, rows);
+  if (second != nullptr) second->join(motions, own_motions, patches, rows);
+
   const BeamPattern& pattern = sensor_->pattern;
-  PatchSet patches{sensor_->patches, std::vector<int>(key_scan_.size(), -1), {}};
-  replace_at_movers(sensor_->maker, pattern, motions, patches);
-  std::vector<FootprintsOfRow> footprints(pattern.rows.size());
-  tbb::parallel_for(0, pattern.num_rows(), [&](int row) {
-    footprints[row] =
-        FootprintsOfRow(pattern, sensor_->columns, patches, motions, row, farthest_reach(options_));
+  std::vector<FootprintsOfRow> footprints(rows.size());
+  tbb::parallel_for(std::size_t{0}, rows.size(), [&](std::size_t i) {
+    footprints[i] = FootprintsOfRow(rows[i], pattern, sensor_->columns, patches, motions,
+                                    farthest_reach(options_));
   });
   const auto hits = cast_all({pattern, patches, motions, footprints}, sensor_->beams, options_);
-  sensor_->take_hits(motions, hits, moved);
+  sensor_->take_hits(motions, hits, second, moved);
   return moved;
 }
 

@@ -26,18 +26,29 @@ struct ResampleOptions {
 /// and time are the beam's, intensity, source and object those of the patch that was hit.
 class BeamResampler {
  public:
-  /// Finds the beams and patches of the scan, which must outlive the resampler.
+  /// Finds the beams and patches of the scan.
   explicit BeamResampler(const LidarScan& key_scan, const ResampleOptions& options = {});
   ~BeamResampler();
 
+  /// Another scan of the same scene, moved to the same instant.
+  struct OtherView {
+    const BeamResampler& scan;
+    const VirtualScan& moved;
+  };
+
   /// @param moved of the key scan, by compose_virtual_scan(). Its `resampling` says what was done.
-  /// @throw std::invalid_argument it was not made from the key scan.
-  [[nodiscard]] VirtualScan resample(VirtualScan moved) const;
+  /// @param other shows what the key scan does not, and again what it does: where both show a
+  /// surface, each weighs as it is near the beam; what lies before hides what lies behind,
+  /// whichever shows it. Null: none.
+  /// @throw std::invalid_argument a scan that was moved is not the resampler's.
+  [[nodiscard]] VirtualScan resample(VirtualScan moved, const OtherView* other = nullptr) const;
 
  private:
   struct Sensor;  // the key scan's beams and patches; none if it has none
 
-  const LidarScan& key_scan_;
+  [[nodiscard]] const Sensor* sensor_of(const OtherView* other) const;
+
+  std::size_t num_points_;
   ResampleOptions options_;
   std::unique_ptr<const Sensor> sensor_;
 };
