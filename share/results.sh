@@ -43,7 +43,7 @@ done
   done
   printf '\n## Ablation: moving / static objects, mean position error, metres\n\n'
   cat "$out/ablation.md"
-  printf '\n## With the next scan (`mode=offline`): moving and static objects, mean position error, metres\n\n'
+  printf '\n## With the next scan (`mode=offline`): mean position error of moving and static objects, and Chamfer in view, metres\n\n'
   cat "$out/offline.md"
   for run in "${runs[@]}"; do
     IFS='|' read -r name title command <<< "$run"

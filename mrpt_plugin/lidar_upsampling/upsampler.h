@@ -56,7 +56,8 @@ class LidarUpsampler {
   void expect_cameras(const std::vector<std::string>& labels);
 
   /// @brief The real scan after the key scan, where a log on disk tells (`mode = offline`): the
-  /// motions until then are measured, images place them in time. Before the key scan's images.
+  /// motions until then are measured, images place them in time; virtual scans that lie on beams
+  /// are drawn from both. Before the key scan's images.
   void expect_next(const LidarScan& next);
 
   /// @brief A real scan: it becomes the key scan.
