@@ -12,6 +12,7 @@
 #include "lidar_upsampling/objects/anchored_scan.h"
 #include "lidar_upsampling/objects/object_points.h"
 #include "lidar_upsampling/objects/travel.h"
+#include "lidar_upsampling/view_points.h"
 
 namespace lidar_upsampling {
 namespace {
@@ -139,39 +140,6 @@ void remember(std::map<int, PastObject>& past, const KeyScanView& key,
   }
 }
 
-void add_static_points(PointTracks& tracks, const AnchoredScan& anchored,
-                       const std::vector<Candidate>& candidates, const LidarScan& scan,
-                       const cv::Mat& texture, const StaticPointOptions& options) {
-  std::vector<std::uint8_t> unreliable(anchored.points.size()),
-      candidate(anchored.points.size(), 0);
-  for (std::size_t i = 0; i < unreliable.size(); ++i)
-    unreliable[i] = anchored.hidden[i] | anchored.on_edge[i];
-  for (const Candidate& object : candidates)
-    for (const int i : object.points)
-      if (anchored.position[i] >= 0) candidate[anchored.position[i]] = 1;
-  const auto chosen = choose_static_points(
-      {anchored.points, unreliable, candidate, texture.size(), texture}, options);
-  add_points(tracks, anchored.points, chosen, scan, kStaticOwner);
-}
-
-// Prediction of all followed points; where one leaves the lens model, its last position.
-std::vector<cv::Point2f> predict_pixels(const CameraView& view, const Pose& T_camera_t_lidar_k,
-                                        double dt) {
-  std::vector<Pose> of_owner{T_camera_t_lidar_k};
-  for (const Candidate& candidate : view.candidates)
-    of_owner.push_back(T_camera_t_lidar_k *
-                       exp_se3(Twist(candidate.rate * (dt - candidate.time_s))));
-  constexpr double kFarOutside = -1e4;
-  std::vector<cv::Point2f> pixels(view.points.size());
-  for (std::size_t i = 0; i < pixels.size(); ++i) {
-    const auto pixel = project(
-        view.camera.model, of_owner[view.points.owner[i] + 1] * view.points.point[i], kFarOutside);
-    pixels[i] = pixel ? cv::Point2f(static_cast<float>(pixel->x()), static_cast<float>(pixel->y()))
-                      : view.points.last_px[i];
-  }
-  return pixels;
-}
-
 }  // namespace
 
 Pose T_camera_lidar_of(const Camera& camera, const Pose& T_vehicle_lidar) {
@@ -212,36 +180,9 @@ void start_view(CameraView& view, std::shared_ptr<const Picture> anchor, const K
   view.anchor_dt = seconds_between(scan.stamp, anchor->instant);
   if (std::abs(view.anchor_dt) * 1e3 <= config.timing.pair_tolerance_ms) view.anchor_dt = 0;
 
-  for (std::size_t i = 0; i < view.candidates.size(); ++i) {
-    Candidate& candidate = view.candidates[i];
-    candidate.anchor_rate = candidate.rate;
-    const double until_anchor = view.anchor_dt - candidate.time_s;
-    auto points =
-        followable_points(anchored, candidate.points, 2 * config.object_motion.min_points);
-    candidate.on_edges =
-        std::any_of(points.begin(), points.end(), [&](const ProjectedPoint& point) {
-          return anchored.on_edge[anchored.position[point.index]] != 0;
-        });
-    if (until_anchor != 0 && !candidate.rate.isZero())
-      points = reprojected(points, scan, camera,
-                           T_camera_lidar_a * exp_se3(Twist(candidate.rate * until_anchor)));
-    const PointTrackOptions& options = config.point_tracks;
-    const auto chosen =
-        choose_spread(points, texture, options.max_points_per_object, options.border_px);
-    add_points(view.points, points, chosen, scan, static_cast<int>(i));
-  }
-  if (with_static_points)
-    add_static_points(view.points, anchored, view.candidates, scan, texture, config.static_points);
+  view.sampling = anchored.sampling;
+  choose_points(view, anchored, texture, scan, T_camera_lidar_a, with_static_points, config);
   view.anchor = std::move(anchor);
-}
-
-void follow_view(CameraView& view, const Picture& picture, const LidarScan& key_scan,
-                 const Pose& T_lidar_t_lidar_k_predicted, const Config& config) {
-  const Pose T_camera_t_lidar_k =
-      T_camera_lidar_of(view.camera, key_scan.T_vehicle_lidar) * T_lidar_t_lidar_k_predicted;
-  const double dt = seconds_between(key_scan.stamp, picture.instant);
-  follow_points(view.points, view.anchor->pyramid, picture.pyramid,
-                predict_pixels(view, T_camera_t_lidar_k, dt), config.klt);
 }
 
 }  // namespace lidar_upsampling

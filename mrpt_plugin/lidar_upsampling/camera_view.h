@@ -16,6 +16,7 @@
 #include "lidar_upsampling/objects/tracks.h"
 #include "lidar_upsampling/se3.h"
 #include "lidar_upsampling/types.h"
+#include "lidar_upsampling/vision/visibility.h"
 
 namespace lidar_upsampling {
 
@@ -79,8 +80,9 @@ struct CameraView {
   Tracker tracker;
   std::shared_ptr<const Picture> last;
   std::shared_ptr<const Picture>
-      anchor;            ///< where the key scan's points were put; null: nowhere yet
-  double anchor_dt = 0;  ///< s from the key scan to the anchor
+      anchor;              ///< where the key scan's points were put; null: nowhere yet
+  double anchor_dt = 0;    ///< s from the key scan to the anchor
+  Neighbourhood sampling;  ///< of the key scan on the picture
   std::vector<Candidate> candidates;
   PointTracks points;
   std::map<int, PastObject> past;  ///< by track id

@@ -211,6 +211,7 @@ class Documenter : public SettingVisitor {
 // of the question; the points are moved, no more.
 void leave_the_picture_alone(Config& config) {
   config.resample = "none";
+  config.point_tracks.off_edges = false;
   ObjectMotionOptions& options = config.object_motion;
   options.static_test = options.drop_covered = false;
   options.prior.from_scans = options.prior.from_images = options.prior.ground = false;

@@ -7,7 +7,6 @@
 
 #include "lidar_upsampling/camera_view.h"
 #include "lidar_upsampling/next_scan_motions.h"
-#include "lidar_upsampling/objects/anchored_scan.h"
 #include "lidar_upsampling/objects/covered_points.h"
 #include "lidar_upsampling/objects/object_motion.h"
 #include "lidar_upsampling/vision/projection.h"
@@ -84,11 +83,9 @@ void fall_back_on_earlier_images(const CameraView& view, std::size_t i, Question
 // Where moving objects are at the image.
 CoverMap cover_map(const CameraView& view, const std::vector<Question>& questions,
                    const LidarScan& scan) {
-  constexpr double kFinest_px = 5;
   const CameraModel& camera = view.camera.model;
-  const Neighbourhood sampling = sampling_of(scan, camera);
-  CoverMap map(camera.width, camera.height, std::max(kFinest_px, sampling.half_width_px),
-               std::max(kFinest_px, sampling.half_height_px));
+  CoverMap map(camera.width, camera.height, view.sampling.half_width_px,
+               view.sampling.half_height_px);
   for (std::size_t i = 0; i < questions.size(); ++i) {
     const auto& [query, pairs, motion] = questions[i];
     if (!moves(motion)) continue;

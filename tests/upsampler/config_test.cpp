@@ -106,6 +106,7 @@ TEST(Config, a_live_sensors_section_may_hold_the_drivers_own_keys) {
 TEST(Config, the_papers_preset_moves_every_object_by_its_own_pose) {
   const Config preset = loaded("[lidar_upsampling]\npreset = paper\n");
   EXPECT_EQ(preset.resample, "none");
+  EXPECT_FALSE(preset.point_tracks.off_edges);
   const ObjectMotionOptions& paper = preset.object_motion;
   EXPECT_FALSE(paper.static_test || paper.drop_covered || paper.prior.any());
   const ObjectMotionOptions ours = loaded("").object_motion;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <opencv2/core/types.hpp>
 #include <vector>
 
 #include "lidar_upsampling/types.h"
@@ -16,9 +17,11 @@ struct AnchoredScan {
   std::vector<ProjectedPoint> points;
   std::vector<std::uint8_t> hidden, on_edge;  ///< of each of `points`
   std::vector<int> position;                  ///< of each point of the scan, in `points`, or -1
+  Neighbourhood sampling;                     ///< of the scan on the picture
 };
 
-/// @brief Half the distance to the next ring and azimuth step on the picture, with some room.
+/// @brief Half the distance to the next ring and azimuth step on the picture, with some room, and
+/// most of what a patch reaches.
 [[nodiscard]] Neighbourhood sampling_of(const LidarScan& scan, const CameraModel& camera);
 
 /// @brief Projects the scan and marks points behind nearer ones and on depth edges, at the
@@ -34,6 +37,14 @@ struct AnchoredScan {
 [[nodiscard]] std::vector<ProjectedPoint> followable_points(const AnchoredScan& anchored,
                                                             const std::vector<int>& object,
                                                             int min_points);
+
+/// @brief By how many pixels the patch of each point on a depth edge is to lie beside it, away from
+/// what is before or behind the object: a patch that shows two things that move apart follows
+/// either.
+/// @param object, points indices into the scan, and those of them that are to be followed.
+[[nodiscard]] std::vector<cv::Point2f> inward_shifts(const AnchoredScan& anchored,
+                                                     const std::vector<int>& object,
+                                                     const std::vector<ProjectedPoint>& points);
 
 /// @brief Moves the points to where a moving object was at the anchor's instant, which is not the
 /// scan's; points that leave the picture are dropped.

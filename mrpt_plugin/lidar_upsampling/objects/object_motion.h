@@ -14,13 +14,13 @@ namespace lidar_upsampling {
 
 struct ObjectMotionOptions {
   ObjectMotionOptions() {
-    pose.min_inliers = 7;
+    pose.min_inliers = 6;
     pose.points_per_observation = 4;
   }
 
   AbsolutePoseOptions pose;  ///< MLESAC and its refinement
   MotionPriorOptions prior;  ///< off: the paper
-  int min_points = 10;       ///< tracked points; fewer: the picture is not asked
+  int min_points = 8;        ///< tracked points; fewer: the picture is not asked
   double max_speed = 70;     ///< m/s over ground; faster: no consensus
   bool drop_covered = true;  ///< points that a nearer moving object covers by now say nothing
   /// Whether an object that cannot be told from a parked one stays parked; off: the paper.

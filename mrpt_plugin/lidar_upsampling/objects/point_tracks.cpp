@@ -50,13 +50,15 @@ std::vector<int> choose_spread(const std::vector<ProjectedPoint>& candidates,
 }
 
 void add_points(PointTracks& tracks, const std::vector<ProjectedPoint>& projected,
-                const std::vector<int>& chosen, const LidarScan& key_scan, int owner) {
+                const std::vector<int>& chosen, const LidarScan& key_scan, int owner,
+                const std::vector<Eigen::Vector3d>& beside) {
   for (const int i : chosen) {
     const ProjectedPoint& point = projected[i];
     tracks.scan_index.push_back(point.index);
     tracks.point.emplace_back(key_scan.points[point.index].cast<double>());
     tracks.owner.push_back(owner);
     tracks.anchor_px.emplace_back(point.u, point.v);
+    if (!beside.empty()) tracks.point.back() += beside[i];
     tracks.last_px.emplace_back(point.u, point.v);
     tracks.predicted_px.emplace_back(point.u, point.v);
     tracks.found.push_back(1);

@@ -14,7 +14,8 @@ namespace lidar_upsampling {
 
 struct PointTrackOptions {
   int max_points_per_object = 150;
-  int border_px = 8;  ///< nearer to the picture's border no point is taken
+  int border_px = 8;      ///< nearer to the picture's border no point is taken
+  bool off_edges = true;  ///< patches of points on depth edges lie beside them; off: the paper
 };
 
 /// The static scene as an owner of points.
@@ -41,9 +42,12 @@ struct PointTracks {
 [[nodiscard]] std::vector<int> choose_spread(const std::vector<ProjectedPoint>& candidates,
                                              const cv::Mat& texture, int max_count, int border_px);
 
-/// Adds points at their projections on the anchor image.
+/// @brief Adds points at their projections on the anchor image.
+/// @param beside of each, by how far what is followed lies beside the scan's point, metres, lidar
+/// frame at k; or none.
 void add_points(PointTracks& tracks, const std::vector<ProjectedPoint>& projected,
-                const std::vector<int>& chosen, const LidarScan& key_scan, int owner);
+                const std::vector<int>& chosen, const LidarScan& key_scan, int owner,
+                const std::vector<Eigen::Vector3d>& beside = {});
 
 /// @brief Finds the points on the next image. The picture around each is always the anchor's, so no
 /// drift adds up over images; the search starts where the motion since the last image leads.
