@@ -11,7 +11,8 @@
 
 namespace lidar_upsampling {
 
-/// The real scan after the key scan, where virtual scans are drawn from both (`mode = offline`).
+/// The real scan after the key scan, where it is known (`mode = offline`); with `resampler`,
+/// virtual scans are drawn from both.
 struct NextView {
   LidarScan scan;
   Pose T_lidar_next_lidar_k = Pose::Identity();  ///< ego-motion

@@ -78,9 +78,10 @@ std::optional<VirtualScan> LidarUpsampler::insert_scan(LidarScan scan) {
   if (is_next && next_view_ && config_.sweep.scan_time == ScanTime::none) {
     key->segments = std::move(next_view_->segments);
     key->resampler = std::move(next_view_->resampler);
+    key->seen = std::make_unique<const SeenSpace>(std::move(next_->seen));
   }
   key_ = std::move(key);
-  {
+  if (!key_->seen) {
     const Stopwatch watch(timing_, "seen space");
     key_->seen = std::make_unique<const SeenSpace>(key_->scan.points,
                                                    estimate_vertical_step_deg(key_->scan));
@@ -100,16 +101,16 @@ void LidarUpsampler::expect_next(const LidarScan& next) {
   LidarScan straight = next;
   const Pose T_lidar_next_lidar_k = take_up(straight, nullptr);
   const Stopwatch watch(timing_, "next scan");
-  const double vertical_step_deg = estimate_vertical_step_deg(straight);
-  next_ = std::make_unique<NextScan>(NextScan{
-      next.stamp, Surface(without_ground(straight, config_.segments.ground)), T_lidar_next_lidar_k,
-      SeenSpace(straight.points, vertical_step_deg), key_->seen.get(), vertical_step_deg});
-  if (!key_->resampler) return;
-  next_view_ =
-      std::make_unique<NextView>(NextView{std::move(straight), T_lidar_next_lidar_k, {}, nullptr});
-  next_view_->segments = segment_scan(next_view_->scan, config_.segments);
-  next_view_->resampler =
-      std::make_unique<const BeamResampler>(next_view_->scan, config_.resampling);
+  SceneSegments segments = segment_scan(straight, config_.segments);
+  next_ = std::make_unique<NextScan>(
+      NextScan{next.stamp, Surface(without_ground(straight, segments.ground)), T_lidar_next_lidar_k,
+               SeenSpace(straight.points, segments.vertical_step_deg), key_->seen.get(),
+               segments.vertical_step_deg});
+  next_view_ = std::make_unique<NextView>(
+      NextView{std::move(straight), T_lidar_next_lidar_k, std::move(segments), nullptr});
+  if (key_->resampler)
+    next_view_->resampler =
+        std::make_unique<const BeamResampler>(next_view_->scan, config_.resampling);
 }
 
 std::optional<VirtualScan> LidarUpsampler::insert_image(const CameraImage& image, Effort effort) {
@@ -152,7 +153,7 @@ std::optional<VirtualScan> LidarUpsampler::flush() {
 
   Stopwatch watch(timing_, "composition");
   std::optional<VirtualScan> of_next;
-  if (next_view_)
+  if (next_view_ && next_view_->resampler)
     of_next = compose_virtual_scan(next_view_->scan,
                                    motion_of_next(*next_view_, motion, key_->scan, *key_->seen), {},
                                    config_.compose);

@@ -15,7 +15,7 @@ using mrpt::obs::CActionCollection;
 using mrpt::obs::CObservation3DRangeScan;
 using mrpt::obs::CSensoryFrame;
 
-constexpr std::size_t kRealScans = 5, kVirtualScans = 8;  // of 13 images
+constexpr std::size_t kRealScans = 5;
 
 // Of the images that no scan was taken with.
 std::vector<Stamp> stamps_between_scans(const std::vector<Logged>& all, const std::string& lidar) {

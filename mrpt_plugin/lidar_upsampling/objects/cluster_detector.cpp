@@ -6,7 +6,6 @@
 #include <cmath>
 #include <limits>
 
-#include "lidar_upsampling/objects/beam_step.h"
 #include "lidar_upsampling/objects/hidden_foot.h"
 #include "lidar_upsampling/units.h"
 #include "lidar_upsampling/vision/projection.h"
@@ -32,10 +31,9 @@ bool has_size_of_road_user(const ClusterExtent& extent, std::size_t num_points, 
 /// Tells clusters at the sides of a view that does not go all around.
 class ViewEdge {
  public:
-  explicit ViewEdge(const LidarScan& scan) : scan_(scan) {
+  ViewEdge(const LidarScan& scan, const std::optional<double>& horizontal_step_deg) : scan_(scan) {
     constexpr double kAround_deg = 350;
-    const auto step = estimate_horizontal_step_deg(scan);
-    has_sides_ = step && *step * scan.num_columns < kAround_deg;
+    has_sides_ = horizontal_step_deg && *horizontal_step_deg * scan.num_columns < kAround_deg;
   }
 
   [[nodiscard]] bool cuts_off(const std::vector<int>& cluster) const {
@@ -103,7 +101,7 @@ std::vector<Detection> ClusterDetector::detect(const DetectorInput& input) {
   const bool has_ground = segments.ground.status == GroundStatus::found;
   const int min_box_size =
       input.next_scan_tells ? options_.min_box_size_by_scans : options_.min_box_size;
-  const ViewEdge view_edge(*input.key_scan);
+  const ViewEdge view_edge(*input.key_scan, segments.horizontal_step_deg);
   std::vector<Detection> detections;
   for (std::size_t i = 0; i < segments.clusters.size(); ++i) {
     const auto& cluster = segments.clusters[i];

@@ -220,12 +220,15 @@ Ground estimate_ground(const LidarScan& scan, const GroundOptions& options) {
   return ground;
 }
 
-std::vector<Eigen::Vector3f> without_ground(const LidarScan& scan, const GroundOptions& options) {
-  const Ground ground = estimate_ground(scan, options);
+std::vector<Eigen::Vector3f> without_ground(const LidarScan& scan, const Ground& ground) {
   std::vector<Eigen::Vector3f> points;
   for (std::size_t i = 0; i < scan.size(); ++i)
     if (ground.is_ground.empty() || ground.is_ground[i] == 0) points.push_back(scan.points[i]);
   return points;
+}
+
+std::vector<Eigen::Vector3f> without_ground(const LidarScan& scan, const GroundOptions& options) {
+  return without_ground(scan, estimate_ground(scan, options));
 }
 
 }  // namespace lidar_upsampling

@@ -49,17 +49,6 @@ std::array<Eigen::Vector3d, 3> steps_by_shape(const ObjectScans& scans) {
   return step;
 }
 
-ObjectRegistrationOptions quick_registration() {
-  ObjectRegistrationOptions options;
-  options.min_points = 10;
-  options.max_shift_m = 0.6;
-  options.weigh_as = 10;
-  options.max_points = 120;
-  options.max_iterations = 15;
-  options.search_m = 0;
-  return options;
-}
-
 bool can_be_registered(const ObjectScans& scans, const ObjectRegistrationOptions& options) {
   return static_cast<int>(scans.before.size()) >= options.min_points &&
          static_cast<int>(scans.now.size()) >= options.min_points && scans.dt > 0;
@@ -234,7 +223,7 @@ PosePrior pose_prior(const MotionPrior& prior, const Pose& T_camera_t_lidar_k_eg
 
 std::optional<KnownMotion> measure_between_scans(const ObjectScans& scans, Stamp stamp_k,
                                                  const Eigen::Matrix3d& R_rest_lidar_k) {
-  const ObjectRegistrationOptions options = quick_registration();
+  const ObjectRegistrationOptions options = options_between_scans(120, 15, 0);
   if (!can_be_registered(scans, options)) return {};
   const Pose& T_ego = scans.T_lidar_k_lidar_before;
   std::vector<Pose> guesses{T_ego, T_ego * scans.T_mov_guess};

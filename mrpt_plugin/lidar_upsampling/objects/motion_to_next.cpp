@@ -19,17 +19,6 @@ constexpr double kUnevenness_m = 0.04;   // of the ground, and twice what is tol
 constexpr double kSlope = 0.1;           // of what rings pass over, per height: a place ahead
 constexpr double kUnexplained_m = 0.05;  // by which an expectation may be off anyway
 
-ObjectRegistrationOptions registration_options(bool search) {
-  ObjectRegistrationOptions options;
-  options.min_points = 10;
-  options.max_shift_m = 0.6;
-  options.weigh_as = 10;
-  options.max_points = 200;
-  options.max_iterations = 20;
-  options.search_m = search ? kSearch_m : 0;
-  return options;
-}
-
 /// The step over ground as a place in the next scan.
 ExpectedPlace place_of(const LevelGaussian& step, const Eigen::Vector3d& centroid,
                        const Pose& T_next_k) {
@@ -66,7 +55,8 @@ std::optional<MotionToNext> measure_to_next(const SoughtObject& object, const Ne
   LevelGaussian expected = object.expected_step;
   expected.covariance += kUnexplained_m * kUnexplained_m * Eigen::Matrix2d::Identity();
   const ExpectedPlace place = place_of(expected, motion.centroid_k, T_next_k);
-  const ObjectRegistrationOptions options = registration_options(object.search);
+  const ObjectRegistrationOptions options =
+      options_between_scans(200, 20, object.search ? kSearch_m : 0);
   const ObjectRegistration found =
       register_object(object.points, next.surface, guesses, options, {&place, &next.seen});
 

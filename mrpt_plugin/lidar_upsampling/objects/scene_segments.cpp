@@ -31,7 +31,8 @@ SceneSegments segment_scan(const LidarScan& scan, const SegmentOptions& options)
   segments.vertical_step_deg = estimate_vertical_step_deg(scan);
   ClusterOptions clustering = options.clusters;
   clustering.vertical_step_deg = segments.vertical_step_deg;
-  if (const auto step = estimate_horizontal_step_deg(scan)) clustering.horizontal_step_deg = *step;
+  segments.horizontal_step_deg = estimate_horizontal_step_deg(scan);
+  if (segments.horizontal_step_deg) clustering.horizontal_step_deg = *segments.horizontal_step_deg;
   segments.clusters = euclidean_clusters(
       scan.points, points_above_ground(scan, segments.ground, options), clustering);
   segments.cluster_of.assign(scan.size(), -1);

@@ -2,6 +2,7 @@
 // Copyright (c) 2026, the lidar_upsampling authors
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "lidar_upsampling/objects/cluster_extent.h"
@@ -21,10 +22,11 @@ struct SegmentOptions {
 /// The ground of a scan, and what stands on it.
 struct SceneSegments {
   Ground ground;
-  std::vector<std::vector<int>> clusters;  ///< indices into the scan, the largest first
-  std::vector<int> cluster_of;             ///< of each point of the scan, -1 for none
-  std::vector<ClusterExtent> extents;      ///< of each cluster
-  double vertical_step_deg = 0.4;          ///< between the scan's rings
+  std::vector<std::vector<int>> clusters;     ///< indices into the scan, the largest first
+  std::vector<int> cluster_of;                ///< of each point of the scan, -1 for none
+  std::vector<ClusterExtent> extents;         ///< of each cluster
+  double vertical_step_deg = 0.4;             ///< between the scan's rings
+  std::optional<double> horizontal_step_deg;  ///< between its columns, where it has any
 };
 
 /// @brief Ground and clusters of a scan; done once per key scan.

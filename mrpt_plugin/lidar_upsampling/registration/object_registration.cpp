@@ -183,6 +183,18 @@ Ambiguity ambiguity_of(const ObjectFit& problem, const Candidate& best) {
 
 }  // namespace
 
+ObjectRegistrationOptions options_between_scans(int max_points, int max_iterations,
+                                                double search_m) {
+  ObjectRegistrationOptions options;
+  options.min_points = 10;
+  options.max_shift_m = 0.6;
+  options.weigh_as = 10;
+  options.max_points = max_points;
+  options.max_iterations = max_iterations;
+  options.search_m = search_m;
+  return options;
+}
+
 const char* to_string(RegistrationStatus status) {
   switch (status) {
     case RegistrationStatus::reliable:

@@ -28,6 +28,10 @@ struct ObjectRegistrationOptions {
   int max_iterations = 25;
 };
 
+/// For objects of ten points or more from one scan to the next, where neighbours err alike.
+[[nodiscard]] ObjectRegistrationOptions options_between_scans(int max_points, int max_iterations,
+                                                              double search_m);
+
 /// Where an object is expected: level place of its centroid in the target's frame.
 struct ExpectedPlace {
   Eigen::Vector2d centroid = Eigen::Vector2d::Zero();
