@@ -6,9 +6,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <opencv2/imgproc.hpp>
 #include <utility>
 
 #include "lidar_upsampling/objects/point_tracks.h"
+#include "lidar_upsampling/vision/klt.h"
 #include "street_scan.h"
 
 namespace lidar_upsampling {
@@ -89,6 +91,41 @@ TEST_F(PostBeforeAWall, what_is_followed_beside_a_point_is_another_place) {
   ASSERT_EQ(tracks.size(), 2U);
   const Eigen::Vector3d own = scan_.points[followed_[3].index].cast<double>();
   EXPECT_TRUE(tracks.point[1].isApprox(own + beside[3]));
+}
+
+/// A picture of the post, which has gone some pixels to the right, before the wall, which has not.
+cv::Mat picture_of_post(const CameraModel& camera, double half_px, int moved_px) {
+  const auto texture = [&](int seed) {
+    cv::Mat noise(camera.height, camera.width, CV_8UC1);
+    cv::theRNG().state = static_cast<std::uint64_t>(seed);
+    cv::randu(noise, 0, 256);
+    cv::GaussianBlur(noise, noise, cv::Size(), 1.5);
+    return noise;
+  };
+  cv::Mat picture = texture(5);
+  const cv::Rect on_post(cvRound(camera.cx - half_px), 0, cvRound(2 * half_px), camera.height);
+  texture(6)(on_post).copyTo(picture(on_post + cv::Point(moved_px, 0)));
+  return picture;
+}
+
+TEST_F(PostBeforeAWall, moved_patches_follow_the_post_and_not_the_wall) {
+  constexpr int kMoved_px = 3;
+  const CameraModel camera = testing::wide_camera().model;
+  const double half_px = camera.fx * 0.15 / kPostDepth;
+  const ImagePyramid before(picture_of_post(camera, half_px, 0));
+  const ImagePyramid after(picture_of_post(camera, half_px, kMoved_px));
+  const auto num_lost = [&](const std::vector<cv::Point2f>& shifts) {
+    std::vector<cv::Point2f> pixels;
+    for (std::size_t i = 0; i < followed_.size(); ++i)
+      pixels.emplace_back(followed_[i].u + shifts[i].x, followed_[i].v + shifts[i].y);
+    const KltResult result = track_points(before, after, pixels);
+    int count = 0;
+    for (std::size_t i = 0; i < pixels.size(); ++i)
+      count += result.tracked[i] == 0 ||
+               cv::norm(result.points[i] - pixels[i] - cv::Point2f(kMoved_px, 0)) > 0.5;
+    return count;
+  };
+  EXPECT_LT(num_lost(shifts_), 0.6 * num_lost(std::vector<cv::Point2f>(followed_.size())));
 }
 
 }  // namespace
