@@ -129,6 +129,27 @@ MotionToNext two_metres_in(double seconds) {
   return motion;
 }
 
+// Columns of points on a wall along the view, each 0.2 m from one to the next, as a LiDAR that
+// passes by draws them: `step` apart along the wall.
+Points wall_along(float first, float step) {
+  Points points;
+  for (float x = first; x < first + 5; x += step)
+    for (float z = -1; z < 1; z += 0.2F) points.emplace_back(x, -8, z);
+  return points;
+}
+
+TEST(MeasureToNext, of_a_wall_along_the_view_no_step_is_told_by_how_its_points_happen_to_lie) {
+  // The next scan's columns lie 0.15 m off the key scan's, and end where those do.
+  constexpr float kStep = 0.4F;
+  const auto motion = measure_to_next({wall_along(25, kStep), Stamp{}, {}, kAnywhere, true},
+                                      next_scan(wall_along(25.15F, kStep)));
+  ASSERT_TRUE(motion);
+  EXPECT_NEAR(motion->step.mean.x(), 0.15, 0.05);
+  EXPECT_GT(motion->step.covariance(0, 0), 0.1 * 0.1);
+  EXPECT_LT(motion->step.covariance(1, 1), 0.05 * 0.05);
+  EXPECT_LT(evidence_of(*motion), 5.99);
+}
+
 TEST(ExpectOnTheWay, goes_at_constant_velocity_and_is_least_sure_where_nothing_ties_it) {
   const MotionPriorOptions options;
   const MotionToNext motion = two_metres_in(0.4);

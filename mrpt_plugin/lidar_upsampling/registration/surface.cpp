@@ -3,6 +3,7 @@
 #include "lidar_upsampling/registration/surface.h"
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <cstdint>
@@ -145,10 +146,16 @@ Eigen::Vector3f Surface::normal(int point) const {
 }
 
 float Surface::spacing(int point) const {
+  constexpr int kAround = 8;
   std::vector<PointIndex::Neighbor> neighbors;
-  index_.nearest(points()[point], 2, neighbors);
-  return neighbors.size() < 2 ? std::numeric_limits<float>::infinity()
-                              : std::sqrt(neighbors[1].sq_distance);
+  index_.nearest(points()[point], kAround, neighbors);
+  if (neighbors.size() < 2) return std::numeric_limits<float>::infinity();
+  const auto lies_beside = [&](const PointIndex::Neighbor& neighbor) {
+    const Eigen::Vector3f step = points()[neighbor.index] - points()[point];
+    return neighbor.index != point && std::abs(step.z()) <= step.head<2>().norm();
+  };
+  const auto beside = std::find_if(neighbors.begin(), neighbors.end(), lies_beside);
+  return std::sqrt((beside != neighbors.end() ? *beside : neighbors[1]).sq_distance);
 }
 
 }  // namespace lidar_upsampling

@@ -39,7 +39,8 @@ class Surface {
   }
   /// Unit length; zero where the neighbours form no plane.
   [[nodiscard]] Eigen::Vector3f normal(int point) const;
-  /// m, to the nearest other point; infinite where there is none.
+  /// m, to the nearest other point that lies beside rather than above or below, as surfaces slide
+  /// level; to any where there is none; infinite without another point.
   [[nodiscard]] float spacing(int point) const;
 
  private:
