@@ -222,6 +222,8 @@ void visit_motion(Config& c, SettingVisitor& v) {
   MotionPriorOptions& p = o.prior;
   v.flag("drop_covered", o.drop_covered,
          "points that a nearer moving object covers by now say nothing");
+  v.flag("part_standing", o.part_standing,
+         "what stands beside a mover in one cluster is parted from it by the picture");
   v.flag("scan_prior", p.from_scans, "the motion between real scans weighs in, by registration");
   v.flag("image_prior", p.from_images, "the motion seen on images before the key scan weighs in");
   v.flag("ground_prior", p.ground, "that vehicles stay on the ground and level weighs in");

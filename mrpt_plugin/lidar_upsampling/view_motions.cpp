@@ -9,6 +9,8 @@
 #include "lidar_upsampling/next_scan_motions.h"
 #include "lidar_upsampling/objects/covered_points.h"
 #include "lidar_upsampling/objects/object_motion.h"
+#include "lidar_upsampling/objects/standing_part.h"
+#include "lidar_upsampling/registration/point_index.h"
 #include "lidar_upsampling/vision/projection.h"
 
 namespace lidar_upsampling {
@@ -80,6 +82,33 @@ void fall_back_on_earlier_images(const CameraView& view, std::size_t i, Question
   question.motion = estimate_object_motion(question.pairs, question.query, options);
 }
 
+// The candidate without what stands beside it, which goes on as static scene.
+void leave_standing(CameraView& view, std::size_t i, const Question& question,
+                    const std::vector<std::uint8_t>& stands, const LidarScan& key_scan) {
+  Candidate& candidate = view.candidates[i];
+  std::vector<Eigen::Vector3f> followed;
+  for (const Correspondence& pair : question.pairs)
+    followed.emplace_back(pair.point_in_source.cast<float>());
+  const PointIndex index(std::move(followed));
+  const auto is_beside = [&](const Eigen::Vector3f& point) {
+    return stands[index.nearest(point).index] != 0;
+  };
+  for (std::size_t j = 0; j < view.points.size(); ++j)
+    if (view.points.owner[j] == static_cast<int>(i) &&
+        is_beside(view.points.point[j].cast<float>()))
+      view.points.owner[j] = kStaticOwner;
+  auto& points = candidate.points;
+  points.erase(std::remove_if(points.begin(), points.end(),
+                              [&](int index_k) { return is_beside(key_scan.points[index_k]); }),
+               points.end());
+  const auto of_object = points_at(key_scan, points);
+  candidate.centroid = mean_of(of_object);
+  if (const auto past = view.past.find(candidate.track_id); past != view.past.end())
+    past->second.points = of_object;
+  candidate.to_next.reset();
+  candidate.at_next.reset();
+}
+
 // Where moving objects are at the image.
 CoverMap cover_map(const CameraView& view, const std::vector<Question>& questions,
                    const LidarScan& scan) {
@@ -124,9 +153,28 @@ void drop_covered_points(const CameraView& view, const LidarScan& key_scan,
     const auto uncovered = without_covered(
         question.pairs, map, query.camera,
         query.T_camera_lidar * query.T_lidar_t_lidar_k * query.prior.T_mov, companions[i]);
-    if (uncovered.size() < question.pairs.size())
-      question.motion = estimate_object_motion(uncovered, query, options);
+    if (uncovered.size() == question.pairs.size()) return;
+    question.motion = estimate_object_motion(uncovered, query, options);
+    question.pairs = uncovered;
   });
+}
+
+// Parts movers from what stands beside them; @return whom to ask again.
+std::vector<std::size_t> leave_standing_parts(CameraView& view,
+                                              const std::vector<Question>& questions,
+                                              const LidarScan& key_scan,
+                                              const ObjectMotionOptions& options) {
+  std::vector<std::vector<std::uint8_t>> stands(questions.size());
+  tbb::parallel_for(std::size_t{0}, questions.size(), [&](std::size_t i) {
+    stands[i] = standing_part(questions[i].pairs, questions[i].query, options);
+  });
+  std::vector<std::size_t> parted;
+  for (std::size_t i = 0; i < questions.size(); ++i) {
+    if (stands[i].empty()) continue;
+    leave_standing(view, i, questions[i], stands[i], key_scan);
+    parted.push_back(i);
+  }
+  return parted;
 }
 
 // The answer with all that the virtual scan and the next picture want to know.
@@ -171,7 +219,7 @@ std::vector<ObjectMotion> estimate_motions(CameraView& view, const Picture& pict
   query.dt = seconds_between(key_scan.stamp, picture.instant);
 
   std::vector<Question> questions(view.candidates.size());
-  tbb::parallel_for(std::size_t{0}, questions.size(), [&](std::size_t i) {
+  const auto ask = [&](std::size_t i) {
     Question& question = questions[i];
     question = question_about(view, i, query, key_scan, options);
     question.query.next_tells = next != nullptr;
@@ -180,8 +228,11 @@ std::vector<ObjectMotion> estimate_motions(CameraView& view, const Picture& pict
     fall_back_on_earlier_images(view, i, question, key_scan, options);
     if (next != nullptr)
       use_next_scan(view.candidates[i], question, view, key_scan, *next, options);
-  });
+  };
+  tbb::parallel_for(std::size_t{0}, questions.size(), ask);
   if (options.drop_covered) drop_covered_points(view, key_scan, options, questions);
+  if (options.part_standing)
+    for (const std::size_t i : leave_standing_parts(view, questions, key_scan, options)) ask(i);
   std::vector<ObjectMotion> motions(questions.size());
   tbb::parallel_for(std::size_t{0}, questions.size(), [&](std::size_t i) {
     motions[i] =

@@ -108,10 +108,10 @@ TEST(Config, the_papers_preset_moves_every_object_by_its_own_pose) {
   EXPECT_EQ(preset.resample, "none");
   EXPECT_FALSE(preset.point_tracks.off_edges);
   const ObjectMotionOptions& paper = preset.object_motion;
-  EXPECT_FALSE(paper.static_test || paper.drop_covered || paper.prior.any());
+  EXPECT_FALSE(paper.static_test || paper.drop_covered || paper.part_standing || paper.prior.any());
   const ObjectMotionOptions ours = loaded("").object_motion;
-  EXPECT_TRUE(ours.static_test && ours.drop_covered && ours.prior.from_scans &&
-              ours.prior.from_images && ours.prior.ground);
+  EXPECT_TRUE(ours.static_test && ours.drop_covered && ours.part_standing &&
+              ours.prior.from_scans && ours.prior.from_images && ours.prior.ground);
 }
 
 }  // namespace

@@ -18,11 +18,12 @@ struct ObjectMotionOptions {
     pose.points_per_observation = 4;
   }
 
-  AbsolutePoseOptions pose;  ///< MLESAC and its refinement
-  MotionPriorOptions prior;  ///< off: the paper
-  int min_points = 8;        ///< tracked points; fewer: the picture is not asked
-  double max_speed = 70;     ///< m/s over ground; faster: no consensus
-  bool drop_covered = true;  ///< points that a nearer moving object covers by now say nothing
+  AbsolutePoseOptions pose;   ///< MLESAC and its refinement
+  MotionPriorOptions prior;   ///< off: the paper
+  int min_points = 8;         ///< tracked points; fewer: the picture is not asked
+  double max_speed = 70;      ///< m/s over ground; faster: no consensus
+  bool drop_covered = true;   ///< points that a nearer moving object covers by now say nothing
+  bool part_standing = true;  ///< what stands beside a mover is no part of it; off: the paper
   /// Whether an object that cannot be told from a parked one stays parked; off: the paper.
   bool static_test = true;
   double static_significance = 16.8;  ///< chi-square of 6 degrees of freedom, 1 % by default
