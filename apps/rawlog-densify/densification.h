@@ -7,6 +7,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <utility>
 
 #include "densify.h"
 #include "lidar_upsampling/io/log_index.h"
@@ -30,6 +31,12 @@ class Densification {
 
   /// @return the virtual scan that still waits for other cameras, if any.
   [[nodiscard]] std::optional<VirtualScan> flush();
+
+  /// Before the first observation: what another run over the log has found to move; or that this
+  /// run is to keep it.
+  void expect_movers(MoverHistory history) { upsampler_.expect_movers(std::move(history)); }
+  void keep_movers() { upsampler_.keep_movers(); }
+  [[nodiscard]] MoverHistory take_movers() { return upsampler_.take_movers(); }
 
   /// The last real scan as the log held it; null before the first.
   [[nodiscard]] const mrpt::obs::CObservation::Ptr& last_real() const { return last_real_; }

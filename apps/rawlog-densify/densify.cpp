@@ -6,9 +6,11 @@
 
 #include <optional>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 #include "densification.h"
+#include "first_run.h"
 #include "lidar_upsampling/front_end/pose_input.h"
 #include "lidar_upsampling/front_end/virtual_observations.h"
 #include "lidar_upsampling/io/external_storage.h"
@@ -49,6 +51,8 @@ class Insertion {
  public:
   Insertion(const DensifyJob& job, const LogIndex& index, DensifyReport& report)
       : report_(report), form_(output_form(job.config)), run_(job, index, report) {}
+
+  void expect_movers(MoverHistory history) { run_.expect_movers(std::move(history)); }
 
   Neighbours feed(const CObservation::Ptr& observation) {
     Neighbours result;
@@ -167,6 +171,14 @@ DensifyReport densify(const DensifyJob& job, const std::function<void(double)>& 
                              "; --accept-truncated densifies what comes before");
   take_poses_from_file(job.config, job.rig, index);
   Insertion run(job, index, report);
+  double begun = kIndexShare;
+  if (job.config.mode == "offline" && job.config.hindsight) {
+    constexpr double kFirstRunShare = 0.4;
+    const Timed first_run(report, "first run");
+    run.expect_movers(
+        find_movers(job, index, [&](double share) { tell(kIndexShare + kFirstRunShare * share); }));
+    begun += kFirstRunShare;
+  }
   if (index.corruption) report.warn(*index.corruption);
 
   RawlogReader reader(job.input);
@@ -174,7 +186,7 @@ DensifyReport densify(const DensifyJob& job, const std::function<void(double)>& 
     const auto entry = read_next(reader, report);
     if (!entry) break;
     densify_entry(*entry, run, output);
-    tell(kIndexShare + (1 - kIndexShare) * reader.progress());
+    tell(begun + (1 - begun) * reader.progress());
   }
   for (const auto& observation : run.flush()) output.write(*observation);
   output.commit();

@@ -12,6 +12,7 @@
 #include "lidar_upsampling/objects/anchored_scan.h"
 #include "lidar_upsampling/objects/object_points.h"
 #include "lidar_upsampling/objects/travel.h"
+#include "lidar_upsampling/sightings.h"
 #include "lidar_upsampling/view_points.h"
 
 namespace lidar_upsampling {
@@ -88,29 +89,33 @@ std::vector<Candidate> find_candidates(CameraView& view, const Picture& anchor,
                                        const std::vector<ProjectedPoint>& visible,
                                        const std::map<int, KnownMotion>& known, Detector& detector,
                                        const Config& config) {
-  std::vector<Detection> detections;
-  std::vector<std::optional<Place>> places;
-  std::vector<std::vector<int>> points;
+  std::vector<Sighting> sightings;
   for (Detection& detection : detector.detect(
-           {anchor.image, &key.scan, &key.segments, T_camera_lidar_a, key.next_is_known})) {
+           {anchor.image, &key.scan, &key.segments, T_camera_lidar_a, key.next != nullptr})) {
     auto found = detection.points.empty()
                      ? select_object_points(key.scan, visible, key.segments, detection.box,
                                             config.object_points)
                      : std::optional(std::move(detection.points));
     if (!found) continue;
-    places.emplace_back(place_of(key, *found));
-    points.push_back(std::move(*found));
     detection.points.clear();
-    detections.push_back(std::move(detection));
+    sightings.push_back({std::move(detection), std::move(*found), {}});
   }
+  find_expected(sightings, key, view.camera.model, T_camera_lidar_a);
 
+  std::vector<Detection> detections;
+  std::vector<std::optional<Place>> places;
+  for (const Sighting& sighting : sightings) {
+    detections.push_back(sighting.detection);
+    places.emplace_back(place_of(key, sighting.points));
+  }
   const std::vector<int> ids = view.tracker.update(anchor.instant, detections, places);
-  std::vector<Candidate> candidates(detections.size());
+  std::vector<Candidate> candidates(sightings.size());
   for (std::size_t i = 0; i < candidates.size(); ++i) {
     Candidate& candidate = candidates[i];
     candidate.detection = std::move(detections[i]);
     candidate.track_id = ids[i];
-    candidate.points = std::move(points[i]);
+    candidate.points = std::move(sightings[i].points);
+    candidate.foreseen = std::move(sightings[i].foreseen);
     candidate.centroid = centroid_of(key.scan, candidate.points);
     if (config.sweep.scan_time != ScanTime::none)
       candidate.time_s = mean_time(key.scan.time_s, candidate.points);
@@ -120,6 +125,12 @@ std::vector<Candidate> find_candidates(CameraView& view, const Picture& anchor,
       candidate.scans_moving = past->second.scans_moving;
   }
   return candidates;
+}
+
+// Whether later scans tell more of a mover than what was before.
+bool tells_more(const KnownMotion& foreseen, const std::optional<KnownMotion>& known) {
+  return !known || !known->found_moving ||
+         foreseen.velocity_covariance.trace() < known->velocity_covariance.trace();
 }
 
 // Objects that one scan misses are looked for in the next ones.
@@ -163,6 +174,9 @@ void start_view(CameraView& view, std::shared_ptr<const Picture> anchor, const K
     measure_motions(view.candidates, view.past, key, config.object_motion.prior.acceleration_sigma);
     forget_contradicted(view.candidates, view.past, key);
   }
+  for (Candidate& candidate : view.candidates)
+    if (candidate.foreseen && tells_more(*candidate.foreseen, candidate.known))
+      candidate.known = candidate.foreseen;
   for (Candidate& candidate : view.candidates)
     if (candidate.known)
       candidate.rate = rate_over_ground(*candidate.known, key.T_rest_lidar_k.linear().transpose(),

@@ -11,6 +11,7 @@
 #include "lidar_upsampling/objects/detector.h"
 #include "lidar_upsampling/objects/known_motion.h"
 #include "lidar_upsampling/objects/motion_to_next.h"
+#include "lidar_upsampling/objects/mover_history.h"
 #include "lidar_upsampling/objects/point_tracks.h"
 #include "lidar_upsampling/objects/scene_segments.h"
 #include "lidar_upsampling/objects/tracks.h"
@@ -36,7 +37,8 @@ struct Candidate {
   double time_s = 0;                 ///< of its points' own measurement, from the key scan's stamp
   int scans_moving = 0;              ///< as PastObject has it, of the scan before
   std::optional<KnownMotion> known;  ///< measured before the key scan's first image
-  std::optional<KnownMotion> seen;   ///< on the last image since the key scan that told it
+  std::optional<KnownMotion> foreseen;  ///< told by later scans
+  std::optional<KnownMotion> seen;      ///< on the last image since the key scan that told it
   std::optional<MotionToNext> to_next;  ///< where the next scan is known and shows it
   bool to_next_is_guided = false;       ///< whether a picture led there
   bool on_edges = false;  ///< whether its followed points lie on depth edges, for want of others
@@ -68,7 +70,8 @@ struct KeyScanView {
   Pose T_rest_lidar_k = Pose::Identity();  ///< lidar frame at k in a frame at rest
   const SeenSpace* seen_before = nullptr;  ///< by the scan before; null: there was none
   Stamp stamp_before;
-  bool next_is_known = false;  ///< the scan to come
+  const NextScan* next = nullptr;              ///< the scan to come, where it is known
+  const std::vector<ExpectedMover>& expected;  ///< who will be found to move
 };
 
 /// @brief One camera's memory: its last picture, and what is followed on it since the key scan.

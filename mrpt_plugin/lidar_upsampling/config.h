@@ -45,6 +45,7 @@ struct Config : public mrpt::config::CLoadableOptions {
   std::string carrier = "auto";
   int compression = 1;
   std::string mode = "causal";
+  bool hindsight = true;
   std::string preset = "default";
   std::string resample = "beam";
   int annotate = 0;

@@ -25,6 +25,8 @@ void visit_main(Config& c, SettingVisitor& v) {
             "gzip level of the output; above 1 gains nothing");
   v.word("mode", c.mode, {"causal", "offline"},
          "causal: only the past is used, as a live system must; offline: the next real scan, too");
+  v.flag("hindsight", c.hindsight,
+         "offline: the log is run over twice; who is found to move is known to before, too");
   v.word("preset", c.preset, {"default", "paper"},
          "paper: exactly the published method, every object moved by its own pose");
   v.word("resample", c.resample, {"none", "beam"},

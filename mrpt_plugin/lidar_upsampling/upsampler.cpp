@@ -52,11 +52,6 @@ LidarUpsampler::LidarUpsampler(const Config& config)
 
 LidarUpsampler::~LidarUpsampler() = default;
 
-void LidarUpsampler::expect_scans(std::vector<Stamp> stamps) {
-  std::sort(stamps.begin(), stamps.end());
-  expected_scans_ = std::move(stamps);
-}
-
 void LidarUpsampler::expect_cameras(const std::vector<std::string>& labels) {
   expected_cameras_ = labels.size();
 }
@@ -81,6 +76,8 @@ std::optional<VirtualScan> LidarUpsampler::insert_scan(LidarScan scan) {
     key->seen = std::make_unique<const SeenSpace>(std::move(next_->seen));
   }
   key_ = std::move(key);
+  if (found_) found_->push_back({key_->scan.stamp, key_->T_rest_lidar_k, {}});
+  movers_.clear();
   if (!key_->seen) {
     const Stopwatch watch(timing_, "seen space");
     key_->seen = std::make_unique<const SeenSpace>(key_->scan.points,
@@ -94,23 +91,6 @@ std::optional<VirtualScan> LidarUpsampler::insert_scan(LidarScan scan) {
   next_view_.reset();
   for (auto& [label, view] : views_) view->anchor.reset();
   return waiting;
-}
-
-void LidarUpsampler::expect_next(const LidarScan& next) {
-  if (!key_ || next.stamp <= key_->scan.stamp) return;
-  LidarScan straight = next;
-  const Pose T_lidar_next_lidar_k = take_up(straight, nullptr);
-  const Stopwatch watch(timing_, "next scan");
-  SceneSegments segments = segment_scan(straight, config_.segments);
-  next_ = std::make_unique<NextScan>(
-      NextScan{next.stamp, Surface(without_ground(straight, segments.ground)), T_lidar_next_lidar_k,
-               SeenSpace(straight.points, segments.vertical_step_deg), key_->seen.get(),
-               segments.vertical_step_deg});
-  next_view_ = std::make_unique<NextView>(
-      NextView{std::move(straight), T_lidar_next_lidar_k, std::move(segments), nullptr});
-  if (key_->resampler)
-    next_view_->resampler =
-        std::make_unique<const BeamResampler>(next_view_->scan, config_.resampling);
 }
 
 std::optional<VirtualScan> LidarUpsampler::insert_image(const CameraImage& image, Effort effort) {
@@ -150,6 +130,7 @@ std::optional<VirtualScan> LidarUpsampler::flush() {
       motion.objects.push_back(brought_to(newest, result, object, key_->scan.stamp));
   }
   learn(motion.objects, newest.instant);
+  if (found_) keep(motion.objects, newest.instant);
 
   Stopwatch watch(timing_, "composition");
   std::optional<VirtualScan> of_next;
@@ -205,9 +186,11 @@ void LidarUpsampler::start(CameraView& view, const std::shared_ptr<const Picture
   }
   const Stopwatch watch(timing_, "candidates");
   const auto step = ego_motion_.step(key_->scan.stamp, anchor->instant);
+  const auto expected = movers_of_later_scans(
+      history_, key_->scan.stamp, key_->T_rest_lidar_k.linear(), config_.object_motion.prior);
   start_view(view, anchor,
              {key_->scan, *key_->segments, *key_->seen, key_->T_rest_lidar_k,
-              key_->seen_before.get(), key_->stamp_before, next_ != nullptr},
+              key_->seen_before.get(), key_->stamp_before, next_.get(), expected},
              ego_step(anchor->instant).T_to_from, known_motions_, !step, *detector_, config_);
   // Where neither the next picture nor the next scan tells, this is what there is.
   for (const Candidate& candidate : view.candidates)
@@ -248,14 +231,18 @@ void LidarUpsampler::learn(const std::vector<ObjectMotion>& objects, Stamp insta
       continue;
     KnownMotion& known = known_motions_[object.track_id];
     if (known.travel && known.stamp > instant) continue;
-    known = known_from(object, key_->scan.stamp, seconds_between(key_->scan.stamp, instant),
-                       key_->T_rest_lidar_k.linear());
+    known = known_at(object, instant);
   }
   constexpr double kForgetAfter_s = 2;
   for (auto motion = known_motions_.begin(); motion != known_motions_.end();)
     motion = seconds_between(motion->second.stamp, instant) > kForgetAfter_s
                  ? known_motions_.erase(motion)
                  : std::next(motion);
+}
+
+KnownMotion LidarUpsampler::known_at(const ObjectMotion& object, Stamp instant) const {
+  return known_from(object, key_->scan.stamp, seconds_between(key_->scan.stamp, instant),
+                    key_->T_rest_lidar_k.linear());
 }
 
 }  // namespace lidar_upsampling

@@ -10,6 +10,7 @@
 
 #include "lidar_upsampling/config.h"
 #include "lidar_upsampling/ego/ego_motion.h"
+#include "lidar_upsampling/objects/mover_history.h"
 #include "lidar_upsampling/se3.h"
 #include "lidar_upsampling/types.h"
 
@@ -17,7 +18,6 @@ namespace lidar_upsampling {
 
 struct CameraView;
 struct ImageResult;
-struct KnownMotion;
 struct NextScan;
 struct NextView;
 struct Picture;
@@ -60,6 +60,14 @@ class LidarUpsampler {
   /// are drawn from both. Before the key scan's images.
   void expect_next(const LidarScan& next);
 
+  /// Has what is found to move kept, for another run over the same log. Before the first scan.
+  void keep_movers();
+  /// @return of the scans so far.
+  [[nodiscard]] MoverHistory take_movers();
+
+  /// @brief What another run over the same log has found to move. Before the first scan.
+  void expect_movers(MoverHistory history);
+
   /// @brief A real scan: it becomes the key scan.
   /// @return the virtual scan of an earlier instant that still waited for other cameras, if any.
   std::optional<VirtualScan> insert_scan(LidarScan scan);
@@ -88,6 +96,8 @@ class LidarUpsampler {
   [[nodiscard]] Pose take_up(LidarScan& scan, const Pose* known_step);
   [[nodiscard]] Pose scan_step(const LidarScan& next);
   void learn(const std::vector<ObjectMotion>& objects, Stamp instant);
+  void keep(const std::vector<ObjectMotion>& objects, Stamp instant);
+  [[nodiscard]] KnownMotion known_at(const ObjectMotion& object, Stamp instant) const;
 
   Config config_;
   EgoMotion ego_motion_;
@@ -98,6 +108,9 @@ class LidarUpsampler {
   std::map<std::string, std::unique_ptr<CameraView>> views_;
   std::vector<ImageResult> group_;            ///< of the instant under way
   std::map<int, KnownMotion> known_motions_;  ///< by track id
+  std::optional<MoverHistory> found_;         ///< where it is kept
+  std::map<int, Mover> movers_;               ///< of the key scan, by track id
+  MoverHistory history_;                      ///< of another run
   bool rate_is_measured_ = false;     ///< whether `lidar_rate_` is that between the last scans
   Twist lidar_rate_ = Twist::Zero();  ///< of the last ego-motion, per second
   std::vector<StageTime> timing_;     ///< since the last virtual scan

@@ -84,6 +84,33 @@ TEST(LidarUpsampler, who_knows_the_next_scan_moves_cars_better) {
             0.9 * mean_error_of_moving_points(street, blind));
 }
 
+TEST(LidarUpsampler, a_second_run_knows_from_the_first_scan_on_who_moves) {
+  StreetRun street;
+  LidarUpsampler first{moving_points()}, second{moving_points()};
+  first.keep_movers();
+  const auto scouted = street.run(first);
+  MoverHistory history = first.take_movers();
+  ASSERT_EQ(history.size(), 6U);
+  double fastest = 0, slowest = 0;
+  for (const Mover& mover : history[3].movers) {
+    fastest = std::max(fastest, mover.motion.velocity_at_rest.x());
+    slowest = std::min(slowest, mover.motion.velocity_at_rest.x());
+  }
+  EXPECT_NEAR(fastest, 11, 1);
+  EXPECT_NEAR(slowest, -9, 1);
+  second.expect_movers(std::move(history));
+  const auto knowing = street.run(second);
+  ASSERT_EQ(knowing.size(), scouted.size());
+  EXPECT_LT(point_errors(street, knowing[0]).moving, 0.7 * point_errors(street, scouted[0]).moving);
+}
+
+TEST(LidarUpsampler, what_moves_is_kept_only_where_it_is_asked_for) {
+  StreetRun street;
+  LidarUpsampler upsampler{moving_points()};
+  (void)street.run(upsampler);
+  EXPECT_TRUE(upsampler.take_movers().empty());
+}
+
 TEST(LidarUpsampler, in_a_hurry_objects_go_on_as_they_were_seen_to_move) {
   StreetRun street;
   LidarUpsampler upsampler{moving_points()};
