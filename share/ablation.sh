@@ -30,5 +30,7 @@ ablation_row "without the ground" object_motion.ground_prior=false
 ablation_row "without the test for parked ones" object_motion.static_test=false
 ablation_row "with points that are covered by now" object_motion.drop_covered=false
 ablation_row "with patches on depth edges left there" points.off_edges=false
+ablation_row "with what stands beside a mover" object_motion.part_standing=false
 ablation_row "the picture alone (the paper)" preset=paper
 ablation_row "with the next scan (offline)" mode=offline
+ablation_row "the same, the log run over once" "mode=offline hindsight=false"

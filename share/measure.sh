@@ -51,7 +51,7 @@ awk -v RS= 'FNR == 1 { file++ }
   file == 1 {
     for (i = 1; i <= lines; i++) if (line[i] ~ /beats ours: Chamfer/) beaten = beaten line[i] "\n"
     if (/^running time/) time = $0
-    else if (!/^([A-Z_]+:|moving|static|points of|scene flow|objects left|a baseline|reported)/) clouds = clouds $0 "\n\n"
+    else if (!/^([A-Z_]+:|moving|static|points of|scene flow|objects left|a baseline|reported|told to move)/) clouds = clouds $0 "\n\n"
     next
   }
   /^Chamfer/ { printf "%s", clouds; next }

@@ -13,6 +13,7 @@
 #include "page/running_time.h"
 #include "rawlog-densify/job_settings.h"
 #include "report.h"
+#include "told_movers.h"
 #include "uncertainty.h"
 
 namespace {
@@ -132,8 +133,12 @@ void evaluate(Request& request) {
   if (!request.references.empty()) content.comparison = compare(request, wants_page);
   if (const auto& comparison = content.comparison)
     std::cout << to_table(comparison->result, comparison->figures, comparison->protocol);
-  if (content.run && content.comparison)
-    std::cout << to_text(calibration_of(content.comparison->result, *content.run));
+  if (content.run && content.comparison) {
+    const LogResult& result = content.comparison->result;
+    std::cout << to_text(calibration_of(result, *content.run))
+              << to_text(told_movers(result, *content.run, request.job.options.max_range_m),
+                         result.has_truth);
+  }
   if (content.run) std::cout << to_text(running_time_of(*content.run));
   if (!request.json.empty())
     write_file(to_json(content.comparison->result, content.comparison->figures).dump(1) + '\n',
