@@ -87,6 +87,7 @@ std::vector<std::uint8_t> standing_part(const std::vector<Correspondence>& corre
       goes_along(sides, motion, query))
     return {};
   std::vector<std::uint8_t> stands;
+  stands.reserve(correspondences.size());
   for (const Correspondence& pair : correspondences)
     stands.push_back(sq_distance(pair, sides.standing) < sq_distance(pair, sides.moving) ? 1 : 0);
   return stands;
