@@ -80,6 +80,20 @@ bool is_surer_than_edges(const Travel& travel, const Candidate& candidate, const
   return largest_sigma(step_at(travel, dt_next).covariance) < half_patch_m;
 }
 
+// Whether patches seem to stay, or nearly, that may as well be stuck on an edge.
+bool is_held_back(const Question& question, const Travel& travel, const Candidate& candidate,
+                  double dt_next) {
+  constexpr double kHalf = 0.5;
+  const MotionQuery& query = question.query;
+  if (!candidate.on_edges || question.motion.num_inliers == 0 ||
+      !is_surer_than_edges(travel, candidate, query, dt_next))
+    return false;
+  const Eigen::Vector3d step =
+      question.motion.T_mov * query.centroid_lidar_k - query.centroid_lidar_k;
+  return question.motion.status == MotionStatus::stationary ||
+         step.head<2>().norm() < kHalf * step_at(travel, query.dt).mean.norm();
+}
+
 }  // namespace
 
 void use_next_scan(Candidate& candidate, Question& question, const CameraView& view,
@@ -88,9 +102,13 @@ void use_next_scan(Candidate& candidate, Question& question, const CameraView& v
   const MotionQuery& query = question.query;
   const Stamp stamp_k = shifted(key_scan.stamp, candidate.time_s);
   const double dt_next = seconds_between(stamp_k, next.stamp);
-  const bool seen_moving = question.motion.status == MotionStatus::moving;
   const Travel before =
       expect_travel(candidate.known, stamp_k, view.R_rest_lidar_k.transpose(), options.prior);
+  if (candidate.foreseen && is_held_back(question, before, candidate, dt_next)) {
+    question.pairs.clear();
+    question.motion = estimate_object_motion({}, query, options);
+  }
+  const bool seen_moving = question.motion.status == MotionStatus::moving;
   if (!candidate.to_next || (seen_moving && !candidate.to_next_is_guided)) {
     candidate.to_next =
         measure_to_next(sought(candidate, question, before, key_scan, dt_next, options), next);
@@ -101,8 +119,7 @@ void use_next_scan(Candidate& candidate, Question& question, const CameraView& v
   candidate.at_next =
       known_at(next.stamp, later(travel, dt_next, options.prior),
                log_se3(candidate.to_next->T_mov) / dt_next, candidate, view.R_rest_lidar_k);
-  const bool sticks = candidate.on_edges && question.motion.status == MotionStatus::stationary;
-  if (sticks && is_surer_than_edges(travel, candidate, query, dt_next)) {
+  if (is_held_back(question, travel, candidate, dt_next)) {
     question.pairs.clear();
     question.motion.num_inliers = 0;
   }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "lidar_upsampling/registration/point_index.h"
@@ -89,20 +90,29 @@ bool move_alike(const KnownMotion& a, const KnownMotion& b) {
 
 using Scans = MoverHistory::const_iterator;
 
-// Whether a further scan shows it to go on.
-bool goes_on(Scans there, Scans end, const Mover& mover, const MotionPriorOptions& options) {
+// What further scans tell of it, too, where they show it to go on: none where they do not.
+std::optional<Mover> seen_to_go_on(Scans there, Scans end, const Mover& mover,
+                                   const MotionPriorOptions& options) {
   constexpr double kPartly = 0.3;
+  std::vector<const KnownMotion*> further;
   for (auto scan = there + 1; scan != end; ++scan) {
-    if (seconds_apart(*there, *scan) > kForesight_s) return false;
+    if (seconds_apart(*there, *scan) > kForesight_s) break;
     const ExpectedMover then = moved_to(*there, *scan, mover, options);
     const PointIndex index = flat_index(then.points);
     const auto is_it = [&](const Mover& other) {
       return move_alike(other.motion, mover.motion) && are_near(other, then) &&
              share_near(other.points, index, reach_of(then)) > kPartly;
     };
-    if (std::any_of(scan->movers.begin(), scan->movers.end(), is_it)) return true;
+    const auto found = std::find_if(scan->movers.begin(), scan->movers.end(), is_it);
+    if (found != scan->movers.end()) further.push_back(&found->motion);
   }
-  return false;
+  if (further.empty()) return {};
+  KnownMotion motion = *further.back();
+  for (auto sight = further.rbegin() + 1; sight != further.rend(); ++sight)
+    motion = fused(motion, **sight, options.acceleration_sigma);
+  Mover result = mover;
+  result.motion = fused(motion, mover.motion, options.acceleration_sigma);
+  return result;
 }
 
 bool is_sure(const Mover& mover, const ExpectedMover& expected) {
@@ -140,10 +150,10 @@ std::vector<ExpectedMover> movers_of_later_scans(const MoverHistory& history, St
   for (auto there = here + 1; there != history.end(); ++there) {
     if (seconds_apart(*here, *there) > kForesight_s) break;
     for (const Mover& mover : there->movers) {
-      ExpectedMover expected = moved_to(*there, *here, mover, options);
-      if (!is_sure(mover, expected) || shows(told, expected) ||
-          !goes_on(there, history.end(), mover, options))
-        continue;
+      const auto known = seen_to_go_on(there, history.end(), mover, options);
+      if (!known) continue;
+      ExpectedMover expected = moved_to(*there, *here, *known, options);
+      if (!is_sure(*known, expected) || shows(told, expected)) continue;
       told.movers.push_back({expected.class_name, expected.points, expected.motion});
       expected.is_shown = shows(*here, expected);
       expected.motion = turned(expected.motion, turn);
