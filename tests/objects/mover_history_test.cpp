@@ -70,6 +70,16 @@ TEST(MoversOfLaterScans, who_was_seen_to_move_already_is_said_to) {
   EXPECT_TRUE(expected[0].is_shown);
 }
 
+TEST(MoversOfLaterScans, the_sights_after_the_next_one_tell_its_velocity_too) {
+  MoverHistory history = history_of_one_seen_from(1);
+  KnownMotion& guess = history[1].movers[0].motion;
+  guess.velocity_at_rest.x() = kSpeed - 1.4;
+  guess.velocity_covariance = 2 * 2 * Eigen::Matrix2d::Identity();
+  const auto expected = expected_at(history, 0);
+  ASSERT_EQ(expected.size(), 1U);
+  EXPECT_GT(expected[0].motion.velocity_at_rest.x(), kSpeed - 0.6);
+}
+
 TEST(MoversOfLaterScans, one_scan_alone_is_not_believed) {
   MoverHistory history = history_of_one_seen_from(2);
   history.resize(3);

@@ -57,10 +57,16 @@ class VoxelSlots {
   std::vector<int> values_;
 };
 
+constexpr int kMoreWhereDense = 4;
+
 Eigen::Vector3f normal_at(const PointIndex& index, const Eigen::Vector3f& point,
                           const NormalOptions& options) {
   std::vector<PointIndex::Neighbor> neighbors;
   index.nearest(point, options.num_neighbors, neighbors);
+  // So near, it is the noise of their ranges that would be told.
+  const auto sq_noisy = static_cast<float>(options.min_radius_m * options.min_radius_m);
+  if (!neighbors.empty() && neighbors.back().sq_distance < sq_noisy)
+    index.nearest(point, kMoreWhereDense * options.num_neighbors, neighbors);
   const auto sq_radius = static_cast<float>(options.max_radius_m * options.max_radius_m);
   Eigen::Vector3f sum = Eigen::Vector3f::Zero();
   Eigen::Matrix3f products = Eigen::Matrix3f::Zero();
