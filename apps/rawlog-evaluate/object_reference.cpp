@@ -74,6 +74,14 @@ std::vector<ObjectReference> by_truth(const ScanSet& scans, const Truth& truth, 
   return objects;
 }
 
+// Normals are of ten neighbours however dense points are: what is judged by stays what it was where
+// the method's own registration is made a better one.
+Surface surface_to_judge_by(std::vector<Eigen::Vector3f> points) {
+  NormalOptions options;
+  options.min_radius_m = 0;
+  return Surface(std::move(points), options);
+}
+
 void register_to_reference(ObjectReference& object, const LidarScan& key, const Surface& surface,
                            const Pose& T_ego, double dt, const EvaluationOptions& options) {
   const auto found = register_object(points_at(key, object.points), surface,
@@ -117,7 +125,7 @@ std::vector<ObjectReference> find_references(const ScanSet& scans, const Truth* 
   if (truth) return objects;
 
   const double dt = seconds_between(scans.key.stamp, scans.reference.stamp);
-  const Surface surface(without_ground(scans.reference));
+  const Surface surface = surface_to_judge_by(without_ground(scans.reference));
   tbb::parallel_for(std::size_t{0}, objects.size(), [&](std::size_t i) {
     register_to_reference(objects[i], scans.key, surface, T_ego, dt, options);
   });

@@ -60,7 +60,8 @@ class LidarUpsampler {
   /// are drawn from both. Before the key scan's images.
   void expect_next(const LidarScan& next);
 
-  /// Has what is found to move kept, for another run over the same log. Before the first scan.
+  /// Has what is found to move kept, for another run over the same log: some ten kilobytes per
+  /// scan. Before the first scan.
   void keep_movers();
   /// @return of the scans so far.
   [[nodiscard]] MoverHistory take_movers();
