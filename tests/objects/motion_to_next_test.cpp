@@ -150,6 +150,52 @@ TEST(MeasureToNext, of_a_wall_along_the_view_no_step_is_told_by_how_its_points_h
   EXPECT_LT(evidence_of(*motion), 5.99);
 }
 
+TEST(MeasureToNext, who_has_lost_a_third_of_its_surface_is_another_one) {
+  Points object = rear(12);
+  for (float z = -1.2F; z < 0.3F; z += 0.15F)
+    for (float y = -0.4F; y <= 0.4F; y += 0.1F) object.emplace_back(11, y, z);
+  const auto to = [&](const Points& next) {
+    return measure_to_next({object, Stamp{}, {}, kAnywhere, true}, next_scan(next));
+  };
+  Points whole = object;
+  for (Eigen::Vector3f& point : whole) point.x() += 0.5F;
+  EXPECT_TRUE(to(whole));
+  EXPECT_FALSE(to(rear(12.5F)));
+}
+
+// Of a vehicle's side, 2.5 m to the right, what a view shows between its edge and a panel that
+// hides all that lies farther than 4.8 m ahead.
+Points side_in_gap(float until) {
+  Points points;
+  for (float z = -0.9F; z < -0.4F; z += 0.05F)
+    for (float x = 4.6F; x < until; x += 0.02F) points.emplace_back(x, -2.5F, z);
+  return points;
+}
+
+Points with_panel(Points points) {
+  for (float z = -1; z < 0.2F; z += 0.01F)
+    for (float x = 2.9F; x < 4.6F; x += 0.01F) points.emplace_back(x, -1.5F, z);
+  return points;
+}
+
+TEST(MeasureToNext, what_may_have_gone_behind_something_is_not_told_by_what_has_come_after_it) {
+  const auto variance_along = [&](const Points& scan_k) {
+    const SeenSpace seen_k(scan_k, kRings_deg);
+    NextScan known = next_scan(with_panel(side_in_gap(4.8F)));
+    known.seen_k = &seen_k;
+    const auto motion = measure_to_next({side_in_gap(4.7F), Stamp{}, {}, kAnywhere, true}, known);
+    return motion ? motion->step.covariance(0, 0) : -1;
+  };
+  const Points cut_off = with_panel(side_in_gap(4.7F));
+  EXPECT_GT(variance_along(cut_off), 0.5 * 0.5);
+  // Where the key scan saw that nothing was to come after it, it is what is seen now.
+  Points with_background = cut_off;
+  for (float z = -6; z < -2; z += 0.1F)
+    for (float y = -17; y < -13; y += 0.05F) with_background.emplace_back(23, y, z);
+  EXPECT_LT(variance_along(with_background), 0.1 * 0.1);
+  EXPECT_GE(variance_along(with_background), 0);
+}
+
 TEST(ExpectOnTheWay, goes_at_constant_velocity_and_is_least_sure_where_nothing_ties_it) {
   const MotionPriorOptions options;
   const MotionToNext motion = two_metres_in(0.4);

@@ -12,12 +12,13 @@ namespace lidar_upsampling {
 namespace {
 
 constexpr double kRegistrationSigma_m = 0.02;
-constexpr double kSearch_m = 2;          // around rest, for objects of which nothing is known
-constexpr double kImprobable = 16;       // chi-square of two degrees of freedom
-constexpr double kMaxRise_m = 0.1;       // what a road user may rise or sink
-constexpr double kUnevenness_m = 0.04;   // of the ground, and twice what is told of heights
-constexpr double kSlope = 0.1;           // of what rings pass over, per height: a place ahead
-constexpr double kUnexplained_m = 0.05;  // by which an expectation may be off anyway
+constexpr double kSearch_m = 2;            // around rest, for objects of which nothing is known
+constexpr double kImprobable = 16;         // chi-square of two degrees of freedom
+constexpr double kWorstResidual_m = 0.15;  // of what may be the same surface
+constexpr double kMaxRise_m = 0.1;         // what a road user may rise or sink
+constexpr double kUnevenness_m = 0.04;     // of the ground, and twice what is told of heights
+constexpr double kSlope = 0.1;             // of what rings pass over, per height: a place ahead
+constexpr double kUnexplained_m = 0.05;    // by which an expectation may be off anyway
 
 /// The step over ground as a place in the next scan.
 ExpectedPlace place_of(const LevelGaussian& step, const Eigen::Vector3d& centroid,
@@ -57,8 +58,8 @@ std::optional<MotionToNext> measure_to_next(const SoughtObject& object, const Ne
   const ExpectedPlace place = place_of(expected, motion.centroid_k, T_next_k);
   const ObjectRegistrationOptions options =
       options_between_scans(200, 20, object.search ? kSearch_m : 0);
-  const ObjectRegistration found =
-      register_object(object.points, next.surface, guesses, options, {&place, &next.seen});
+  const ObjectRegistration found = register_object(object.points, next.surface, guesses, options,
+                                                   {&place, &next.seen, next.seen_k});
 
   motion.T_mov = T_next_k.inverse() * found.T_target_object;
   motion.step.mean = (motion.T_mov * motion.centroid_k - motion.centroid_k).head<2>();
@@ -77,7 +78,9 @@ std::optional<MotionToNext> measure_to_next(const SoughtObject& object, const Ne
       sigma * sigma * Eigen::Matrix2d::Identity() + turn * found.slack * turn.transpose();
   const bool is_seen =
       found.status == RegistrationStatus::reliable || found.status == RegistrationStatus::ambiguous;
-  if (!is_seen || rise > kMaxRise_m || disagreement(motion.step, expected) > kImprobable) return {};
+  if (!is_seen || found.residual_m > kWorstResidual_m || rise > kMaxRise_m ||
+      disagreement(motion.step, expected) > kImprobable)
+    return {};
   if (is_lookalike(object, found, motion.step.mean, next)) return {};
   return motion;
 }

@@ -43,6 +43,8 @@ struct RegistrationClues {
   const ExpectedPlace* expected = nullptr;  ///< an answer far from there must fit the better
   const SeenSpace* seen = nullptr;  ///< by the target's sensor: what is hidden from it needs no
                                     ///< counterpart, where it saw through the object cannot be
+  const SeenSpace* seen_with_object = nullptr;  ///< by the object's own sensor then: without it
+                                                ///< nothing is taken to be out of sight
 };
 
 /// Why a registration is not to be trusted.
