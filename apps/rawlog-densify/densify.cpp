@@ -161,6 +161,7 @@ DensifyReport densify(const DensifyJob& job, const std::function<void(double)>& 
   report.input = job.input;
   report.output = job.output;
   report.mode = job.config.mode;
+  report.hindsight = job.config.mode == "offline" && job.config.hindsight;
   report.detector = detector_name(job.config);
   Output output(job, report);
 
@@ -172,7 +173,7 @@ DensifyReport densify(const DensifyJob& job, const std::function<void(double)>& 
   take_poses_from_file(job.config, job.rig, index);
   Insertion run(job, index, report);
   double begun = kIndexShare;
-  if (job.config.mode == "offline" && job.config.hindsight) {
+  if (report.hindsight) {
     constexpr double kFirstRunShare = 0.4;
     const Timed first_run(report, "first run");
     run.expect_movers(

@@ -128,6 +128,7 @@ nlohmann::json to_json(const DensifyReport& report) {
   nlohmann::json json{{"input", report.input},
                       {"output", report.output},
                       {"mode", report.mode},
+                      {"hindsight", report.hindsight},
                       {"ego_motion", report.ego_source},
                       {"detector", report.detector},
                       {"carrier", report.carrier},
@@ -157,7 +158,8 @@ nlohmann::json to_json(const DensifyReport& report) {
 
 std::string summary(const DensifyReport& report) {
   std::ostringstream text;
-  text << "mode              " << report.mode << '\n'
+  text << "mode              " << report.mode
+       << (report.hindsight ? ", after a first run over the log" : "") << '\n'
        << "ego-motion        " << report.ego_source << '\n'
        << "object candidates " << report.detector << '\n'
        << "real scans        " << report.num_scans << '\n'

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <iterator>
-#include <limits>
 
 #include "lidar_upsampling/vision/projection.h"
 
@@ -60,16 +59,13 @@ void join(Sighting& sighting, const ExpectedMover& mover, std::vector<int>& poin
 std::optional<Detection> detection_of(const ExpectedMover& mover, const std::vector<int>& points,
                                       const KeyScanView& key, const CameraModel& camera,
                                       const Pose& T_camera_lidar) {
-  constexpr double kFar = std::numeric_limits<double>::infinity();
-  Detection detection{{kFar, kFar, -kFar, -kFar}, mover.class_name, 1., -1, {}};
-  Box2d& box = detection.box;
+  Detection detection{Box2d::around_nothing(), mover.class_name, 1., -1, {}};
   std::size_t count = 0;
   for (const int i : points) {
     const auto pixel = project(camera, T_camera_lidar * key.scan.points[i].cast<double>());
     if (!pixel) continue;
     ++count;
-    box = {std::min(box.left, pixel->x()), std::min(box.top, pixel->y()),
-           std::max(box.right, pixel->x()), std::max(box.bottom, pixel->y())};
+    detection.box.extend(pixel->x(), pixel->y());
   }
   if (count < kFewest) return {};
   return detection;

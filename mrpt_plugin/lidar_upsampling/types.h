@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <opencv2/core/mat.hpp>
 #include <string>
 #include <vector>
@@ -82,6 +83,17 @@ struct CameraImage {
 struct Box2d {
   double left = 0, top = 0, right = 0, bottom = 0;
 
+  /// Of negative width, until it is extended.
+  [[nodiscard]] static Box2d around_nothing() {
+    constexpr double kFar = std::numeric_limits<double>::infinity();
+    return {kFar, kFar, -kFar, -kFar};
+  }
+  void extend(double u, double v) {
+    left = std::min(left, u);
+    top = std::min(top, v);
+    right = std::max(right, u);
+    bottom = std::max(bottom, v);
+  }
   [[nodiscard]] double width() const { return right - left; }
   [[nodiscard]] double height() const { return bottom - top; }
   [[nodiscard]] double area() const { return std::max(0., width()) * std::max(0., height()); }

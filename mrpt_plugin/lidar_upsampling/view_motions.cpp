@@ -18,14 +18,10 @@ namespace {
 
 Box2d box_of(const CameraModel& camera, const LidarScan& scan, const std::vector<int>& points,
              const Pose& T_camera_t_lidar_k) {
-  Box2d box{1e9, 1e9, -1e9, -1e9};
+  Box2d box = Box2d::around_nothing();
   for (const int i : points) {
     const auto pixel = project(camera, T_camera_t_lidar_k * scan.points[i].cast<double>());
-    if (!pixel) continue;
-    box.left = std::min(box.left, pixel->x());
-    box.right = std::max(box.right, pixel->x());
-    box.top = std::min(box.top, pixel->y());
-    box.bottom = std::max(box.bottom, pixel->y());
+    if (pixel) box.extend(pixel->x(), pixel->y());
   }
   return box.right < box.left ? Box2d{} : box;
 }

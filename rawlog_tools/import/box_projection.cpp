@@ -59,12 +59,11 @@ std::optional<Box2d> project_box(const CameraModel& model, const Pose& T_camera_
   if (model.distortion_model != DistortionModel::none) {
     throw std::invalid_argument("boxes are projected on pictures without distortion only");
   }
-  Box2d box{1e9, 1e9, -1e9, -1e9};
+  Box2d box = Box2d::around_nothing();
   for (int i = 0; i < 6; ++i) {
     for (const Eigen::Vector3d& p : seen_part(model, face(T_camera_object, size, i))) {
       const double u = model.fx * p.x() / p.z() + model.cx, v = model.fy * p.y() / p.z() + model.cy;
-      box = {std::min(box.left, u), std::min(box.top, v), std::max(box.right, u),
-             std::max(box.bottom, v)};
+      box.extend(u, v);
     }
   }
   if (!(box.width() >= kSmallest && box.height() >= kSmallest)) return std::nullopt;

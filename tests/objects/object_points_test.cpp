@@ -20,7 +20,7 @@ using testing::wide_camera;
 
 /// The 2D box of all of an object, hidden or not.
 Box2d box_of(const BoxObject& object) {
-  Box2d box{1e9, 1e9, -1e9, -1e9};
+  Box2d box = Box2d::around_nothing();
   for (const double x : {-0.5, 0.5}) {
     for (const double y : {-0.5, 0.5}) {
       for (const double z : {0., 1.}) {
@@ -29,9 +29,7 @@ Box2d box_of(const BoxObject& object) {
             Eigen::AngleAxisd(object.yaw, Eigen::Vector3d::UnitZ()) *
                 Eigen::Vector3d(x * object.length, y * object.width, z * object.height);
         const auto pixel = project(wide_camera().model, forward_camera() * corner);
-        if (!pixel) continue;
-        box = {std::min(box.left, pixel->x()), std::min(box.top, pixel->y()),
-               std::max(box.right, pixel->x()), std::max(box.bottom, pixel->y())};
+        if (pixel) box.extend(pixel->x(), pixel->y());
       }
     }
   }

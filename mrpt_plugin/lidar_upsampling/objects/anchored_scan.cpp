@@ -42,15 +42,13 @@ class PatchContent {
 std::vector<ProjectedPoint> others_around(const AnchoredScan& anchored,
                                           const std::vector<int>& object) {
   std::vector<std::uint8_t> is_own(anchored.points.size(), 0);
-  Box2d reach{1e9, 1e9, -1e9, -1e9};
+  Box2d reach = Box2d::around_nothing();
   for (const int i : object) {
     if (anchored.position[i] < 0) continue;
     is_own[anchored.position[i]] = 1;
     const ProjectedPoint& point = anchored.points[anchored.position[i]];
-    reach.left = std::min<double>(reach.left, point.u - kPatchReach_px);
-    reach.right = std::max<double>(reach.right, point.u + kPatchReach_px);
-    reach.top = std::min<double>(reach.top, point.v - kPatchReach_px);
-    reach.bottom = std::max<double>(reach.bottom, point.v + kPatchReach_px);
+    reach.extend(point.u - kPatchReach_px, point.v - kPatchReach_px);
+    reach.extend(point.u + kPatchReach_px, point.v + kPatchReach_px);
   }
   std::vector<ProjectedPoint> others;
   for (std::size_t i = 0; i < is_own.size(); ++i)

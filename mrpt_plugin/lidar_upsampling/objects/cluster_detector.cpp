@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "lidar_upsampling/objects/hidden_foot.h"
 #include "lidar_upsampling/units.h"
@@ -58,35 +57,30 @@ const char* class_by_size(const ClusterExtent& extent) {
 
 /// The box around what the picture shows of a cluster.
 struct Seen {
-  Box2d box;
+  Box2d box = Box2d::around_nothing();
   int num_points = 0;
 };
-
-void extend(Box2d& box, const Eigen::Vector2d& pixel) {
-  box = {std::min(box.left, pixel.x()), std::min(box.top, pixel.y()),
-         std::max(box.right, pixel.x()), std::max(box.bottom, pixel.y())};
-}
 
 /// An object that stands on the ground reaches down to it, though its lowest points were taken for
 /// ground; at the top it may reach half way to the next ring.
 Seen look_at(std::size_t i, const DetectorInput& input) {
-  constexpr double kFar = std::numeric_limits<double>::infinity();
   constexpr float kStandingHeight = 0.6F;
   const SceneSegments& segments = *input.segments;
   const Ground& ground = segments.ground;
   const CameraModel& camera = input.image.camera.model;
   const float bottom = segments.extents[i].bottom;
   const bool stands = ground.status == GroundStatus::found && bottom < kStandingHeight;
-  Seen seen{{kFar, kFar, -kFar, -kFar}, 0};
+  Seen seen;
   for (const int index : segments.clusters[i]) {
     const Eigen::Vector3d point = input.key_scan->points[index].cast<double>();
     const auto pixel = project(camera, input.T_camera_lidar * point);
     if (!pixel) continue;
-    extend(seen.box, *pixel);
+    seen.box.extend(pixel->x(), pixel->y());
     ++seen.num_points;
     if (!stands || ground.height[index] > bottom + 0.1F) continue;
     const Eigen::Vector3d foot = point - ground.height[index] * ground.plane.normal;
-    if (const auto at = project(camera, input.T_camera_lidar * foot)) extend(seen.box, *at);
+    if (const auto at = project(camera, input.T_camera_lidar * foot))
+      seen.box.extend(at->x(), at->y());
   }
   const double half_ring_px = 0.5 * segments.vertical_step_deg * kDegree * camera.fy;
   seen.box.top = std::max(0., seen.box.top - half_ring_px);

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "lidar_upsampling/registration/point_index.h"
+#include "lidar_upsampling/registration/surface.h"
 
 namespace lidar_upsampling {
 namespace {
@@ -132,10 +133,7 @@ KnownMotion turned(KnownMotion motion, const Eigen::Matrix3d& R) {
 
 Mover make_mover(std::string class_name, const std::vector<Eigen::Vector3f>& points,
                  const KnownMotion& motion) {
-  Mover mover{std::move(class_name), {}, motion};
-  const std::size_t count = std::min(points.size(), kMostPoints);
-  for (std::size_t i = 0; i < count; ++i) mover.points.push_back(points[i * points.size() / count]);
-  return mover;
+  return {std::move(class_name), evenly_thinned(points, kMostPoints), motion};
 }
 
 std::vector<ExpectedMover> movers_of_later_scans(const MoverHistory& history, Stamp stamp,

@@ -58,16 +58,12 @@ void find_in_scene(Candidate& candidate, const SceneSegments& segments,
 
 /// `seen` is in the order of the scan, as are the points of a cluster.
 Candidate make_candidate(std::vector<int> cluster, const std::vector<ProjectedPoint>& seen) {
-  constexpr double kFar = std::numeric_limits<double>::infinity();
   Candidate candidate;
-  candidate.box = {kFar, kFar, -kFar, -kFar};
+  candidate.box = Box2d::around_nothing();
   auto at = seen.begin();
   for (const int index : cluster) {
     while (at->index != index) ++at;
-    candidate.box = {std::min(candidate.box.left, static_cast<double>(at->u)),
-                     std::min(candidate.box.top, static_cast<double>(at->v)),
-                     std::max(candidate.box.right, static_cast<double>(at->u)),
-                     std::max(candidate.box.bottom, static_cast<double>(at->v))};
+    candidate.box.extend(at->u, at->v);
     candidate.depth += at->depth;
   }
   candidate.depth /= static_cast<double>(cluster.size());

@@ -9,7 +9,7 @@ namespace lidar_upsampling {
 
 std::vector<int> choose_spread(const std::vector<ProjectedPoint>& candidates,
                                const cv::Mat& texture, int max_count, int border_px) {
-  Box2d bounds{1e9, 1e9, -1e9, -1e9};
+  Box2d bounds = Box2d::around_nothing();
   std::vector<int> inside;
   for (int i = 0; i < static_cast<int>(candidates.size()); ++i) {
     const ProjectedPoint& point = candidates[i];
@@ -17,10 +17,8 @@ std::vector<int> choose_spread(const std::vector<ProjectedPoint>& candidates,
         point.v >= texture.rows - border_px)
       continue;
     inside.push_back(i);
-    bounds.left = std::min<double>(bounds.left, point.u);
-    bounds.right = std::max<double>(bounds.right, point.u + 1e-3);
-    bounds.top = std::min<double>(bounds.top, point.v);
-    bounds.bottom = std::max<double>(bounds.bottom, point.v + 1e-3);
+    bounds.extend(point.u, point.v);
+    bounds.extend(point.u + 1e-3, point.v + 1e-3);
   }
   if (static_cast<int>(inside.size()) <= max_count) return inside;
 

@@ -121,6 +121,16 @@ std::vector<Eigen::Vector3f> voxel_downsampled(const std::vector<Eigen::Vector3f
   return sums;
 }
 
+std::vector<Eigen::Vector3f> evenly_thinned(const std::vector<Eigen::Vector3f>& points,
+                                            std::size_t max_points) {
+  if (points.size() <= max_points) return points;
+  std::vector<Eigen::Vector3f> kept;
+  kept.reserve(max_points);
+  for (std::size_t i = 0; i < max_points; ++i)
+    kept.push_back(points[i * points.size() / max_points]);
+  return kept;
+}
+
 struct Surface::Known {
   enum State : std::uint8_t { unknown, under_way, ready };
 

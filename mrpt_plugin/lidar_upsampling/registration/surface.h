@@ -13,6 +13,10 @@ namespace lidar_upsampling {
 [[nodiscard]] std::vector<Eigen::Vector3f> voxel_downsampled(
     const std::vector<Eigen::Vector3f>& points, double voxel_m);
 
+/// @brief All of the points, or `max_points` of them at even steps of their order.
+[[nodiscard]] std::vector<Eigen::Vector3f> evenly_thinned(
+    const std::vector<Eigen::Vector3f>& points, std::size_t max_points);
+
 struct NormalOptions {
   int num_neighbors = 10;
   double min_radius_m = 0.1;   ///< where all of these lie within, four times as many are asked
