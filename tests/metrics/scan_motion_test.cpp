@@ -56,6 +56,17 @@ TEST(MatchByBeam, tells_a_scan_drawn_anew_on_the_beams) {
   EXPECT_FALSE(match_by_beam(key, key).empty());
 }
 
+TEST(MatchByBeam, tells_so_for_a_sensor_at_rest_by_what_has_moved) {
+  const LidarScan key = scan_street(houses(), lidar_at(0, 0, 0), 1);
+  LidarScan drawn_anew = key, moved_on = key;
+  for (std::size_t i = 0; i < key.size() / 20; ++i) {
+    drawn_anew.points[i] *= 0.97F;
+    moved_on.points[i] += Eigen::Vector3f(0.5F, 0.2F, 0);
+  }
+  EXPECT_TRUE(match_by_beam(key, drawn_anew).empty());
+  EXPECT_EQ(match_by_beam(key, moved_on).size(), key.size());
+}
+
 TEST(MatchByBeam, says_nothing_without_rings) {
   LidarScan key = scan_street(houses(), lidar_at(0, 0, 0));
   LidarScan bare = key;

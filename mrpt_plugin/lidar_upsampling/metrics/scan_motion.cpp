@@ -64,13 +64,27 @@ Pairs grow(const Pairs& pairs, Pose& T, double inlier_m) {
   return inliers;
 }
 
+constexpr double kSame_m = 0.003;
+
+/// Whether most of what has changed lies on its own beams still, nearer or farther: moved points
+/// leave them.
+bool changed_along_beams(const Pairs& pairs) {
+  constexpr double kChanged_m = 0.03;
+  int changed = 0, along = 0;
+  for (const auto& [source, target] : pairs) {
+    if ((target - source).norm() < kChanged_m) continue;
+    ++changed;
+    along += source.normalized().cross(target).norm() < kSame_m ? 1 : 0;
+  }
+  return 2 * along > changed;
+}
+
 /// Whether the matched points are other points than the key scan's: drawn anew on the beams, or
 /// measured by the sensor itself. Moved points keep their distances to the millimetre, most of them
-/// with the static scene.
+/// with the static scene; those of a sensor at rest are the same in any case.
 bool is_other_points(const LidarScan& key, const LidarScan& virtual_scan,
                      const std::vector<int>& matches) {
   constexpr std::size_t kEnough = 2000;
-  constexpr double kSame_m = 0.003;
   Pairs pairs;
   for (std::size_t i = 0; i < key.size(); ++i)
     if (matches[i] >= 0)
@@ -79,7 +93,7 @@ bool is_other_points(const LidarScan& key, const LidarScan& virtual_scan,
   const std::size_t step = pairs.size() / kEnough + 1;
   Pairs thinned;
   for (std::size_t i = 0; i < pairs.size(); i += step) thinned.push_back(pairs[i]);
-  return !fit_rigid(thinned, kSame_m);
+  return !fit_rigid(thinned, kSame_m) || changed_along_beams(pairs);
 }
 
 }  // namespace
