@@ -37,8 +37,12 @@ const char* to_string(Resampling resampling) {
   return "unknown";
 }
 
+Eigen::Matrix3d position_uncertainty(const ObjectMotion& object) {
+  return object.position_covariance + object.unproven_step * object.unproven_step.transpose();
+}
+
 double position_sigma(const ObjectMotion& object) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(object.position_covariance,
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(position_uncertainty(object),
                                                             Eigen::EigenvaluesOnly);
   return std::sqrt(std::max(0., axes.eigenvalues()[2]));
 }

@@ -138,6 +138,9 @@ struct ObjectMotion {
   double rmse_px = 0;                                          ///< of the inliers
   /// Of the centroid at the image, m^2, in the axes of the lidar frame then; zero: not known.
   Eigen::Matrix3d position_covariance = Eigen::Matrix3d::Zero();
+  /// Of one that is told to stand: where it would be if it did not, from where it is, m, in the
+  /// same axes.
+  Eigen::Vector3d unproven_step = Eigen::Vector3d::Zero();
 };
 
 /// How long a stage took for one image or scan.
@@ -173,7 +176,12 @@ struct VirtualScan {
 [[nodiscard]] const char* to_string(MotionStatus status);
 [[nodiscard]] const char* to_string(Resampling resampling);
 
-/// One standard deviation of the centroid, in its least certain direction; 0: not known.
+/// What the centroid may be wrong by, m^2, in the axes of the lidar frame then: its covariance, and
+/// of one that is told to stand the unproven step as well (the second moment about where it is
+/// told to be); zero: not known.
+[[nodiscard]] Eigen::Matrix3d position_uncertainty(const ObjectMotion& object);
+
+/// Its square root in the least certain direction, m; 0: not known.
 [[nodiscard]] double position_sigma(const ObjectMotion& object);
 
 [[nodiscard]] std::vector<Eigen::Vector3f> points_at(const LidarScan& scan,

@@ -124,8 +124,10 @@ ObjectMotion estimate_object_motion(const Correspondences& correspondences,
   result.status = MotionStatus::moving;
   if (options.static_test && evidence_of_motion(correspondences, query, *pose, T_parked, options) <
                                  options.static_significance) {
+    const Eigen::Vector3d where_moved = moved.T_lidar_t_lidar_k * query.centroid_lidar_k;
     result = motion;
     result.status = MotionStatus::stationary;
+    result.unproven_step = where_moved - motion.T_lidar_t_lidar_k * query.centroid_lidar_k;
   }
   result.num_inliers = pose->num_inliers;
   result.rmse_px = pose->rmse_px;
