@@ -8,8 +8,10 @@
 #include <mrpt/obs/CObservationRobotPose.h>
 
 #include <GeographicLib/LocalCartesian.hpp>
+#include <algorithm>
 
 #include "lidar_upsampling/io/images.h"
+#include "simulator/sensor_errors.h"
 
 namespace lidar_upsampling::sim {
 
@@ -21,20 +23,21 @@ mrpt::poses::CPose2D wheels_at(const World& world, Stamp stamp) {
   return {state.x, state.y, state.yaw};
 }
 
-mrpt::obs::CObservation::Ptr odometry_observation(const World& world, Stamp stamp) {
+// `instant` is what the wheels tell of, the log's start being where they count from.
+mrpt::obs::CObservation::Ptr odometry_observation(const World& world, Stamp instant) {
   auto observation = mrpt::obs::CObservationOdometry::Create();
-  const MotionState state = state_at(world.ego.motion, time_of(stamp));
-  observation->odometry = wheels_at(world, stamp) - wheels_at(world, start_stamp());
+  const MotionState state = state_at(world.ego.motion, time_of(instant));
+  observation->odometry = wheels_at(world, instant) - wheels_at(world, start_stamp());
   observation->hasVelocities = true;
   observation->velocityLocal = {state.speed, 0, state.yaw_rate};
   return observation;
 }
 
-mrpt::obs::CObservation::Ptr gnss_observation(const World& world, const EgoPoseSpec& spec,
+mrpt::obs::CObservation::Ptr gnss_observation(const Pose& T_world_vehicle, const EgoPoseSpec& spec,
                                               Stamp stamp) {
   constexpr double kHeight = 100, kUndulation = 44;
   const Eigen::Vector3d antenna(0, 0, 1.6);
-  const Eigen::Vector3d p = world.T_world_vehicle(time_of(stamp)) * antenna;
+  const Eigen::Vector3d p = T_world_vehicle * antenna;
   const GeographicLib::LocalCartesian earth(spec.latitude_deg, spec.longitude_deg, kHeight);
   mrpt::obs::gnss::Message_NMEA_GGA gga;
   double height = 0;
@@ -60,6 +63,18 @@ mrpt::obs::CObservation::Ptr gnss_observation(const World& world, const EgoPoseS
   return observation;
 }
 
+mrpt::obs::CObservation::Ptr told_pose_observation(const Pose& T_world_vehicle,
+                                                   const EgoPoseSpec& spec) {
+  auto observation = mrpt::obs::CObservationRobotPose::Create();
+  observation->pose.mean = to_mrpt(T_world_vehicle);
+  observation->pose.cov.setDiagonal(1e-6);
+  for (int i = 0; i < 6; ++i) {
+    const double sigma = i < 3 ? spec.noise_m : spec.noise_rad;
+    observation->pose.cov(i, i) = std::max(1e-6, sigma * sigma);
+  }
+  return observation;
+}
+
 }  // namespace
 
 mrpt::obs::CObservation::Ptr pose_observation(const World& world, const std::string& label,
@@ -73,18 +88,19 @@ mrpt::obs::CObservation::Ptr pose_observation(const World& world, const std::str
 }
 
 mrpt::obs::CObservation::Ptr ego_observation(const World& world, const EgoPoseSpec& spec,
-                                             Stamp stamp) {
+                                             Stamp stamp, std::uint32_t seed) {
   mrpt::obs::CObservation::Ptr observation;
   switch (spec.kind) {
     case EgoPoseKind::none:
       return nullptr;
     case EgoPoseKind::pose:
-      return pose_observation(world, spec.label, stamp);
+      observation = told_pose_observation(told_ego_pose(world, spec, stamp, seed), spec);
+      break;
     case EgoPoseKind::odometry:
-      observation = odometry_observation(world, stamp);
+      observation = odometry_observation(world, shifted(stamp, -spec.lag_s));
       break;
     case EgoPoseKind::gnss:
-      observation = gnss_observation(world, spec, stamp);
+      observation = gnss_observation(told_ego_pose(world, spec, stamp, seed), spec, stamp);
       break;
   }
   observation->sensorLabel = spec.label;

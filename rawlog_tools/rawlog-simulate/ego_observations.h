@@ -14,9 +14,11 @@ namespace lidar_upsampling::sim {
                                                             const std::string& label, Stamp stamp);
 
 /// What the scenario's ego_poses say of the vehicle at an instant: a pose, the wheels' odometry
-/// (2D, from where the log starts), or a GNSS fix (GGA); null for `none`.
+/// (2D, from where the log starts), or a GNSS fix (GGA); null for `none`. Late and off as the spec
+/// says, by the seed.
 [[nodiscard]] mrpt::obs::CObservation::Ptr ego_observation(const World& world,
-                                                           const EgoPoseSpec& spec, Stamp stamp);
+                                                           const EgoPoseSpec& spec, Stamp stamp,
+                                                           std::uint32_t seed);
 
 /// The movement between two instants, as wheels measure it.
 [[nodiscard]] mrpt::obs::CActionCollection movement(const World& world, Stamp from, Stamp to);

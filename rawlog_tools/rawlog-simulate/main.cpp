@@ -5,6 +5,7 @@
 
 #include "common/tool_main.h"
 #include "simulate.h"
+#include "simulator/variation.h"
 
 namespace {
 
@@ -34,12 +35,16 @@ int main(int argc, char** argv) {
   const auto* duration =
       app.add_option("--duration", duration_s, "seconds, instead of the scenario's")
           ->check(CLI::Range(0., 3600.));
-  const auto* seed_option = app.add_option("--seed", seed, "instead of the scenario's");
+  const auto* seed_option = app.add_option(
+      "--seed", seed,
+      "draws another situation of the same kind: places, speeds, colours, light, noise, street, as "
+      "far as the scenario's [variation] lets; without it, it is exactly as written");
   app.add_flag("--overwrite", job.overwrite, "replace existing files");
   return run_tool(app, argc, argv, [&] {
     job.scenario = sim::load_scenario(scenario_path);
+    // First, so that however much of it is asked for, a seed's situation is one.
+    if (!seed_option->empty()) job.scenario = sim::drawn(job.scenario, seed);
     if (!duration->empty()) job.scenario.duration_s = duration_s;
-    if (!seed_option->empty()) job.scenario.seed = seed;
     SimulationSummary summary;
     {
       Progress progress("simulating");

@@ -19,6 +19,7 @@
 #include "output_file.h"
 #include "simulator/camera.h"
 #include "simulator/lidar.h"
+#include "simulator/sensor_errors.h"
 #include "simulator/truth.h"
 
 namespace lidar_upsampling::sim {
@@ -29,9 +30,10 @@ namespace {
 enum class EventKind { ego, scan, image };
 
 struct Event {
-  Stamp stamp;
+  Stamp stamp;  ///< in the log
   EventKind kind;
   int camera = 0;
+  Stamp regular;  ///< of an image: what the stamp would be if the camera's clock kept time
 
   bool operator<(const Event& other) const {
     return std::tie(stamp, kind, camera) < std::tie(other.stamp, other.kind, other.camera);
@@ -42,17 +44,18 @@ std::vector<Event> events_of(const Scenario& scenario) {
   std::vector<Event> events;
   if (scenario.ego_poses.kind != EgoPoseKind::none) {
     for (const Stamp s : stamps_of(scenario.ego_poses.rate_hz, 0, scenario.duration_s)) {
-      events.push_back({s, EventKind::ego});
+      events.push_back({s, EventKind::ego, 0, s});
     }
   }
   const LidarSpec& lidar = scenario.lidar;
   for (const Stamp s : stamps_of(lidar.rate_hz, lidar.phase_s, scenario.duration_s)) {
-    events.push_back({s, EventKind::scan});
+    events.push_back({s, EventKind::scan, 0, s});
   }
   for (std::size_t i = 0; i < scenario.cameras.size(); ++i) {
     const CameraSpec& camera = scenario.cameras[i];
     for (const Stamp s : stamps_of(camera.rate_hz, camera.phase_s, scenario.duration_s)) {
-      events.push_back({s, EventKind::image, static_cast<int>(i)});
+      const Stamp told = told_stamp(camera, s, scenario.duration_s, scenario.seed);
+      events.push_back({told, EventKind::image, static_cast<int>(i), s});
     }
   }
   std::sort(events.begin(), events.end());
@@ -152,7 +155,8 @@ class Simulation {
   void handle(const Event& event) {
     switch (event.kind) {
       case EventKind::ego:
-        formatter_.add(ego_observation(world_, scenario_.ego_poses, event.stamp), event.kind);
+        formatter_.add(ego_observation(world_, scenario_.ego_poses, event.stamp, scenario_.seed),
+                       event.kind);
         ++summary_.num_ego;
         return;
       case EventKind::scan:
@@ -177,7 +181,9 @@ class Simulation {
   void add_image(const Event& event) {
     add_truth(event.stamp);
     const CameraRenderer& renderer = renderers_[event.camera];
-    const RenderedImage picture = renderer.render(world_, event.stamp, scenario_.seed);
+    RenderedImage picture = renderer.render(world_, event.regular, scenario_.seed);
+    picture.image.stamp = event.stamp;
+    picture.image.camera.T_vehicle_camera = told_mounting(renderer.spec(), scenario_.seed);
     write_boxes(boxes_.stream(), picture.image, true_boxes(world_, renderer, picture));
     formatter_.add(observation_from_image(picture.image), EventKind::image);
     ++summary_.num_images;

@@ -185,6 +185,7 @@ RenderedImage CameraRenderer::render(const World& world, Stamp stamp, std::uint3
 
   RenderedImage out;
   out.image.stamp = stamp;
+  out.taken_at = t;
   out.image.camera = spec_.camera;
   out.image.bgr.create(model.height, model.width, CV_8UC3);
   out.object.create(model.height, model.width, CV_32S);

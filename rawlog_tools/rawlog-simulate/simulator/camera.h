@@ -9,6 +9,7 @@ namespace lidar_upsampling::sim {
 /// A picture whose pixels know what they show.
 struct RenderedImage {
   CameraImage image;
+  double taken_at = 0;  ///< seconds since the start
   cv::Mat object;  ///< CV_32S: place in World::objects of what a pixel's centre shows, -1: the sky
 };
 

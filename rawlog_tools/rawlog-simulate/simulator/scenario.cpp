@@ -43,7 +43,7 @@ void read_ego(SectionReader section, EgoSpec& ego) {
 VehicleSpec read_vehicle(SectionReader section, const std::string& name) {
   VehicleSpec vehicle;
   vehicle.name = name;
-  section.choice("type", vehicle.type, {"car", "van", "truck", "bus", "pedestrian"});
+  section.choice("type", vehicle.type, {"car", "van", "truck", "bus", "pedestrian", "cyclist"});
   read_motion(section, vehicle.motion);
   std::vector<double> rgb;
   if (section.numbers("color", rgb, 3)) {
@@ -88,6 +88,25 @@ void read_ego_poses(SectionReader section, EgoPoseSpec& poses) {
   section.number("rate_hz", poses.rate_hz, 0.01, 10000);
   section.number("latitude_deg", poses.latitude_deg, -89, 89);
   section.number("longitude_deg", poses.longitude_deg, -180, 180);
+  section.number("noise_m", poses.noise_m, 0, 100);
+  section.number("noise_deg", poses.noise_rad, 0, 90, kDegree);
+  section.number("lag_ms", poses.lag_s, -1000, 1000, 1e-3);
+  if (poses.noise_m > 0 && (kind == "none" || kind == "odometry"))
+    section.refuse("noise_m", "is for kind = pose or gnss");
+  if (poses.noise_rad > 0 && kind != "pose") section.refuse("noise_deg", "is for kind = pose");
+  section.finish();
+}
+
+void read_variation(SectionReader section, VariationSpec& variation) {
+  section.number("speed_share", variation.speed_share, 0, 0.9);
+  section.number("ego_speed_share", variation.ego_speed_share, 0, 0.9);
+  section.number("place_m", variation.place_m, 0, 100);
+  section.number("across_m", variation.across_m, 0, 10);
+  section.number("type_share", variation.type_share, 0, 1);
+  section.number("light_share", variation.light_share, 0, 1);
+  section.number("noise_share", variation.noise_share, 0, 1);
+  section.number("street_share", variation.street_share, 0, 1);
+  section.flag("colors", variation.colors);
   section.finish();
 }
 
@@ -114,6 +133,7 @@ Scenario scenario_from_config(const mrpt::config::CConfigFileBase& config) {
   read_street({config, "static"}, scenario.street);
   read_appearance({config, "appearance"}, scenario.appearance);
   read_ego_poses({config, "ego_poses"}, scenario.ego_poses);
+  read_variation({config, "variation"}, scenario.variation);
   read_log({config, "log"}, scenario);
   for (const std::string& name : named_sections(config, "camera.")) {
     scenario.cameras.push_back(read_camera({config, "camera." + name}, name));
@@ -125,7 +145,7 @@ Scenario scenario_from_config(const mrpt::config::CConfigFileBase& config) {
     scenario.vehicles.push_back(read_vehicle({config, "vehicle." + name}, name));
   }
   refuse_other_sections(config, {"scenario", "ego", "lidar", "static", "appearance", "ego_poses",
-                                 "log", "camera.", "vehicle."});
+                                 "variation", "log", "camera.", "vehicle."});
   return scenario;
 }
 

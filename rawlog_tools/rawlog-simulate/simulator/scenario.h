@@ -14,7 +14,7 @@ namespace lidar_upsampling::sim {
 /// A vehicle (or pedestrian) with a motion of its own.
 struct VehicleSpec {
   std::string name;
-  std::string type = "car";  ///< car, van, truck, bus, pedestrian
+  std::string type = "car";  ///< car, van, truck, bus, pedestrian, cyclist
   MotionProfile motion;
   std::optional<Eigen::Vector3f> color;  ///< linear RGB, 0 to 1; none: by the seed
 };
@@ -69,8 +69,11 @@ struct CameraSpec {
   Camera camera;
   double rate_hz = 30, phase_s = 0;
   double time_offset_s = 0;                     ///< a picture is taken this long before its stamp
+  double time_jitter_s = 0;                     ///< sigma of the stamps about that
   double noise = 1.5;                           ///< sigma of the gray value
   std::vector<std::pair<double, double>> gain;  ///< (t, factor on the light), linear between
+  /// How far the mounting that the log tells is from the true one; see told_mounting().
+  double calibration_error_rad = 0, calibration_error_m = 0;
 };
 
 enum class EgoPoseKind { none, pose, odometry, gnss };
@@ -80,6 +83,23 @@ struct EgoPoseSpec {
   std::string label = "POSE";
   double rate_hz = 100;
   double latitude_deg = 47.4979, longitude_deg = 19.0402;  ///< of the world's origin, for gnss
+  double noise_m = 0;    ///< sigma along each axis, of pose and gnss; see told_ego_pose()
+  double noise_rad = 0;  ///< sigma about each axis, of pose
+  double lag_s = 0;      ///< what a stamp t says is of t - lag
+};
+
+/// How far a situation that is drawn (see variation.h) may be from the written one: uniformly, to
+/// both sides. The section [variation], whose keys are these names.
+struct VariationSpec {
+  double speed_share = 0.15;     ///< of each speed; the way stays, and what stands stays standing
+  double ego_speed_share = 0.1;  ///< of the ego's
+  double place_m = 1;            ///< along the heading at the start
+  double across_m = 0.2;         ///< across it
+  double type_share = 0.3;       ///< of the cars become vans, and of the vans cars
+  double light_share = 0.2;      ///< of sun and of sky
+  double noise_share = 0.3;      ///< of the LiDAR's and of each camera's noise
+  double street_share = 0.2;     ///< of the shares of parked cars, trees, poles, pedestrians
+  bool colors = true;            ///< all are drawn, given ones too
 };
 
 enum class LogFormat { observations, sensory_frames };
@@ -88,6 +108,8 @@ struct Scenario {
   std::string name = "street";
   double duration_s = 3;
   std::uint32_t seed = 1;
+  /// Nothing of the street's own traffic (parked cars, pedestrians) is in anybody's way until then.
+  double cleared_s = 0;
   EgoSpec ego;
   LidarSpec lidar;
   std::vector<CameraSpec> cameras;
@@ -95,6 +117,7 @@ struct Scenario {
   StreetSpec street;
   AppearanceSpec appearance;
   EgoPoseSpec ego_poses;
+  VariationSpec variation;
   LogFormat format = LogFormat::observations;
   std::string carrier = "auto";
 };

@@ -132,6 +132,9 @@ CameraSpec read_camera(SectionReader section, const std::string& label) {
   section.number("rate_hz", spec.rate_hz, 0.01, 1000);
   section.number("phase_s", spec.phase_s, 0, 100);
   section.number("time_offset_ms", spec.time_offset_s, -1000, 1000, 1e-3);
+  section.number("time_jitter_ms", spec.time_jitter_s, 0, 1000, 1e-3);
+  section.number("calibration_error_deg", spec.calibration_error_rad, 0, 90, kDegree);
+  section.number("calibration_error_m", spec.calibration_error_m, 0, 10);
   section.number("noise", spec.noise, 0, 50);
   std::vector<double> gain;
   section.numbers("gain", gain, 0);

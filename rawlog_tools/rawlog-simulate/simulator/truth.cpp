@@ -74,9 +74,9 @@ Eigen::Vector3d angles_of(const Eigen::Matrix3d& R) {
 std::vector<TrueBox> true_boxes(const World& world, const CameraRenderer& renderer,
                                 const RenderedImage& picture, double most_hidden,
                                 int fewest_pixels) {
-  const double t = time_of(picture.image.stamp) - renderer.spec().time_offset_s;
+  const double t = picture.taken_at;
   const Scene scene = scene_at(world, t);
-  const Pose T_world_camera = world.T_world_vehicle(t) * picture.image.camera.T_vehicle_camera;
+  const Pose T_world_camera = world.T_world_vehicle(t) * renderer.spec().camera.T_vehicle_camera;
   const View view(scene, T_world_camera.translation());
   std::vector<TrueBox> boxes;
   for (const auto& [id, seen] : visible_objects(picture.object)) {

@@ -4,8 +4,7 @@
 #include <array>
 #include <stdexcept>
 
-#include "simulator/noise.h"
-#include "simulator/world.h"
+#include "simulator/people.h"
 
 namespace lidar_upsampling::sim {
 
@@ -33,28 +32,6 @@ VehicleShape car_shape(std::uint32_t seed) {
     s.lean = 0.28;
   }
   s.side_windows = {{-1.85, -0.5}, {-0.4, 1.0}};
-  return s;
-}
-
-VehicleShape shape_of(const std::string& type, std::uint32_t seed) {
-  VehicleShape s;
-  if (type == "car") {
-    s = car_shape(seed);
-  } else if (type == "van") {
-    s = {5.2, 1.95, 2.15, 0.25, 1.0, 1.2, 0.35, 1.65, -1.5, 1.9, 1.05, -2.55, -2.5, 0.12, 0, 0, {}};
-    s.side_windows = {{0.35, 1.8}};
-  } else if (type == "truck") {
-    s = {7.8,  2.45, 3.3, 0.45, 1.45, 1.5,  0.48, 2.6, -2.2,
-         3.75, 3.55, 1.9, 1.95, 0.05, -3.9, 1.75, {}};
-    s.side_windows = {{2.3, 3.5}};
-  } else if (type == "bus") {
-    s = {11.2, 2.5,  3.05, 0.35,  1.15, 1.25, 0.48, 3.3, -2.9,
-         5.5,  5.35, -5.5, -5.45, 0.04, 0,    0,    {}};
-    for (int i = 0; i < 7; ++i) s.side_windows.emplace_back(-5.2 + 1.5 * i, -3.8 + 1.5 * i);
-  } else {
-    throw std::invalid_argument("vehicle type \"" + type +
-                                "\": it can be car, van, truck, bus, pedestrian");
-  }
   return s;
 }
 
@@ -133,38 +110,40 @@ void add_details(Object& object, const Vector3f& color) {
   }
 }
 
-Object make_pedestrian(std::uint32_t seed) {
-  Object object;
-  object.class_name = "pedestrian";
-  object.seed = seed;
-  object.shape.length = 0.5;
-  object.shape.width = 0.5;
-  object.shape.height = 1.76;
-  const auto tint = [&](std::uint32_t i) {
-    return static_cast<float>(0.05 + 0.5 * uniform(seed, i));
-  };
-  const Vector3f coat(tint(1), tint(2), tint(3)),
-      trousers(tint(4) * 0.4F, tint(4) * 0.4F, tint(5) * 0.5F);
-  for (const double y : {-0.1, 0.1}) {
-    object.parts.push_back(
-        {upright_prism({y * 0.8, y, 0}, 0.07, 0.1, 0.85, 8), Material::cloth, trousers});
-  }
-  object.parts.push_back({upright_prism({0, 0, 0.8}, 0.2, 0.23, 0.62, 10), Material::cloth, coat});
-  object.parts.push_back({ellipsoid({0, 0, 1.44}, {0.17, 0.23, 0.1}), Material::cloth, coat});
-  object.parts.push_back({ellipsoid({0.02, 0, 1.62}, {0.11, 0.1, 0.14}), Material::skin,
-                          Vector3f(0.55F, 0.33F, 0.24F)});
-  return object;
-}
-
 }  // namespace
+
+VehicleShape vehicle_shape(const std::string& type, std::uint32_t seed) {
+  if (type == "pedestrian") return make_pedestrian(seed).shape;
+  if (type == "cyclist") return make_cyclist(seed).shape;
+  VehicleShape s;
+  if (type == "car") {
+    s = car_shape(seed);
+  } else if (type == "van") {
+    s = {5.2, 1.95, 2.15, 0.25, 1.0, 1.2, 0.35, 1.65, -1.5, 1.9, 1.05, -2.55, -2.5, 0.12, 0, 0, {}};
+    s.side_windows = {{0.35, 1.8}};
+  } else if (type == "truck") {
+    s = {7.8,  2.45, 3.3, 0.45, 1.45, 1.5,  0.48, 2.6, -2.2,
+         3.75, 3.55, 1.9, 1.95, 0.05, -3.9, 1.75, {}};
+    s.side_windows = {{2.3, 3.5}};
+  } else if (type == "bus") {
+    s = {11.2, 2.5,  3.05, 0.35,  1.15, 1.25, 0.48, 3.3, -2.9,
+         5.5,  5.35, -5.5, -5.45, 0.04, 0,    0,    {}};
+    for (int i = 0; i < 7; ++i) s.side_windows.emplace_back(-5.2 + 1.5 * i, -3.8 + 1.5 * i);
+  } else {
+    throw std::invalid_argument("vehicle type \"" + type +
+                                "\": it can be car, van, truck, bus, pedestrian, cyclist");
+  }
+  return s;
+}
 
 Object make_vehicle(const std::string& type, std::uint32_t seed,
                     const std::optional<Vector3f>& color) {
   if (type == "pedestrian") return make_pedestrian(seed);
+  if (type == "cyclist") return make_cyclist(seed);
   Object object;
   object.class_name = type;
   object.seed = seed;
-  object.shape = shape_of(type, seed);
+  object.shape = vehicle_shape(type, seed);
   const Vector3f paint = color.value_or(color_of(type, seed));
   object.parts.push_back({body_of(object.shape), Material::body, paint});
   object.parts.push_back({cabin_of(object.shape), Material::cabin, paint});

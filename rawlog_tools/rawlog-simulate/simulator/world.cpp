@@ -2,6 +2,9 @@
 // Copyright (c) 2026, the lidar_upsampling authors
 #include "simulator/world.h"
 
+#include <algorithm>
+
+#include "simulator/footprint.h"
 #include "simulator/noise.h"
 
 namespace lidar_upsampling::sim {
@@ -16,7 +19,29 @@ Object vehicle_of(const VehicleSpec& spec, std::uint32_t seed) {
   return object;
 }
 
+// Whoever parks or waits where the traffic is to pass is not there.
+void clear_way(std::vector<Object>& street, const Scenario& scenario) {
+  constexpr double kGap = 0.3;
+  std::vector<Footprint> traffic{ego_footprint(scenario.ego)};
+  for (std::size_t i = 0; i < scenario.vehicles.size(); ++i) {
+    const VehicleSpec& spec = scenario.vehicles[i];
+    const VehicleShape shape = vehicle_shape(spec.type, vehicle_seed(scenario.seed, i));
+    traffic.push_back({shape.length, shape.width, spec.motion});
+  }
+  const auto in_the_way = [&](const Object& object) {
+    return !object.class_name.empty() &&
+           std::any_of(traffic.begin(), traffic.end(), [&](const Footprint& footprint) {
+             return ever_touch(footprint, footprint_of(object), scenario.cleared_s, kGap);
+           });
+  };
+  street.erase(std::remove_if(street.begin(), street.end(), in_the_way), street.end());
+}
+
 }  // namespace
+
+std::uint32_t vehicle_seed(std::uint32_t seed, std::size_t index) {
+  return hash(seed, static_cast<std::uint32_t>(1000 + index));
+}
 
 Pose World::T_world_object(int id, double t) const {
   const Object& object = objects.at(id);
@@ -46,8 +71,9 @@ World build_world(const Scenario& scenario) {
     x_to = std::max(x_to, x);
   }
   world.objects = build_street(scenario.street, x_from - kSight, x_to + kSight, scenario.seed);
+  if (scenario.cleared_s > 0) clear_way(world.objects, scenario);
   for (std::size_t i = 0; i < scenario.vehicles.size(); ++i) {
-    world.objects.push_back(vehicle_of(scenario.vehicles[i], hash(scenario.seed, 1000 + i)));
+    world.objects.push_back(vehicle_of(scenario.vehicles[i], vehicle_seed(scenario.seed, i)));
   }
   for (std::size_t i = 0; i < world.objects.size(); ++i) {
     world.objects[i].id = static_cast<int>(i);

@@ -60,7 +60,12 @@ struct Object {
   [[nodiscard]] bool moves() const { return motion.speed > 0 || !motion.phases.empty(); }
 };
 
-/// @param type car, van, truck, bus or pedestrian. `color` by the seed where none is given.
+/// @brief What a make_vehicle() of this type and seed is like. @throw std::invalid_argument another
+/// type.
+[[nodiscard]] VehicleShape vehicle_shape(const std::string& type, std::uint32_t seed);
+
+/// @param type car, van, truck, bus, pedestrian or cyclist. `color` by the seed where none is
+/// given, and people's always.
 /// @throw std::invalid_argument another type.
 [[nodiscard]] Object make_vehicle(const std::string& type, std::uint32_t seed,
                                   const std::optional<Eigen::Vector3f>& color = std::nullopt);
@@ -76,6 +81,9 @@ struct World {
   /// With the body's sway and heave.
   [[nodiscard]] Pose T_world_vehicle(double t) const;
 };
+
+/// Of the vehicle's shape and texture, where a scenario's seed is that.
+[[nodiscard]] std::uint32_t vehicle_seed(std::uint32_t seed, std::size_t index);
 
 [[nodiscard]] World build_world(const Scenario& scenario);
 
