@@ -38,6 +38,32 @@ ScanInstant instant_at(const World& world, const LidarSpec& lidar, double t, std
   return {world, lidar, std::move(scene), T_world_lidar, std::move(view), seed};
 }
 
+// Of a ball about the frame's origin that holds the whole object.
+double reach_of(const Object& object) {
+  double reach = 0;
+  for (const Part& part : object.parts) {
+    reach = std::max(reach, part.solid.center.norm() + part.solid.bounding_radius);
+  }
+  return reach;
+}
+
+// While a column is measured its beams lie in a half-plane, so that few objects matter: each column
+// has its own scene, which would else take most of the time.
+ScanInstant column_instant(const World& world, const LidarSpec& lidar, int column, double t,
+                           std::uint32_t seed, const std::vector<double>& reaches) {
+  const Pose T_world_lidar = world.T_world_vehicle(t) * lidar.T_vehicle_lidar;
+  const Eigen::Vector3d up = T_world_lidar.linear().col(2);
+  const Eigen::Vector3d beam = T_world_lidar.linear() * beam_direction(lidar, 0, column);
+  const Eigen::Vector3d across = up.cross(beam).normalized(), ahead = across.cross(up);
+  Scene scene = scene_at(world, t, [&](const Object& object, const Pose& T_world_object) {
+    const Eigen::Vector3d to = T_world_object.translation() - T_world_lidar.translation();
+    const double reach = reaches[object.id] + 0.01;
+    return std::abs(to.dot(across)) <= reach && to.dot(ahead) >= -reach;
+  });
+  View view(scene, T_world_lidar.translation());
+  return {world, lidar, std::move(scene), T_world_lidar, std::move(view), seed};
+}
+
 RayBundle bundle_of(const ScanInstant& now, int ring_from, int ring_to, int column_from,
                     int column_to) {
   const Eigen::Matrix3d R = now.T_world_lidar.linear();
@@ -149,8 +175,11 @@ SimulatedScan scan_at(const World& world, const LidarSpec& lidar, Stamp stamp, s
   const std::uint32_t own = hash(seed, ticks);
   std::vector<Return> returns(static_cast<std::size_t>(lidar.num_rings()) * lidar.columns);
   if (lidar.sweep) {
+    std::vector<double> reaches;
+    for (const Object& object : world.objects) reaches.push_back(reach_of(object));
     tbb::parallel_for(0, lidar.columns, [&](int column) {
-      const ScanInstant now = instant_at(world, lidar, t + sweep_time(lidar, column), own);
+      const double at = t + sweep_time(lidar, column);
+      const ScanInstant now = column_instant(world, lidar, column, at, own, reaches);
       scan_columns(now, column, column, returns);
     });
   } else {

@@ -33,12 +33,14 @@ bool outside(const std::vector<Eigen::Vector3d>& vertices, const Eigen::Vector3d
 
 }  // namespace
 
-Scene scene_at(const World& world, double t) {
+Scene scene_at(const World& world, double t,
+               const std::function<bool(const Object&, const Pose&)>& matters) {
   Scene scene;
   scene.t = t;
   for (const Object& object : world.objects) {
     const Pose T_world_object = world.T_world_object(object.id, t);
     scene.T_world_object.push_back(T_world_object);
+    if (matters && !matters(object, T_world_object)) continue;
     for (std::size_t i = 0; i < object.parts.size(); ++i) {
       scene.parts.push_back(place(object.parts[i], T_world_object));
       scene.parts.back().object = object.id;

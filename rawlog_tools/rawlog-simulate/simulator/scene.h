@@ -2,6 +2,7 @@
 // Copyright (c) 2026, the lidar_upsampling authors
 #pragma once
 
+#include <functional>
 #include <limits>
 
 #include "simulator/world.h"
@@ -26,7 +27,10 @@ struct Scene {
   std::vector<PlacedPart> parts;
 };
 
-[[nodiscard]] Scene scene_at(const World& world, double t);
+/// @param matters whether the parts of an object, of this pose, are wanted; none: all are.
+[[nodiscard]] Scene scene_at(
+    const World& world, double t,
+    const std::function<bool(const Object&, const Pose& T_world_object)>& matters = {});
 
 struct RayHit {
   double range = std::numeric_limits<double>::infinity();
