@@ -5,7 +5,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "argoverse2rawlog/json_file.h"
+#include "import/json_file.h"
 
 namespace lidar_upsampling::argoverse {
 namespace {
@@ -24,7 +24,7 @@ Camera camera_from(const std::string& name, const nlohmann::json& value) {
     throw std::invalid_argument("camera " + name + " has skew_ " + std::to_string(skew) +
                                 ", which no camera model here knows");
   }
-  camera.T_vehicle_camera = pose_from_json(value.at("vehicle_SE3_camera_"));
+  camera.T_vehicle_camera = importing::pose_from_json(value.at("vehicle_SE3_camera_"));
   return camera;
 }
 
@@ -32,9 +32,10 @@ Camera camera_from(const std::string& name, const nlohmann::json& value) {
 
 Calibration read_calibration(const std::string& path) {
   Calibration calibration;
-  with_json(path, [&](const nlohmann::json& json) {
-    calibration.T_vehicle_up_lidar = pose_from_json(json.at("vehicle_SE3_up_lidar_"));
-    calibration.T_vehicle_down_lidar = pose_from_json(json.at("vehicle_SE3_down_lidar_"));
+  importing::with_json(path, [&](const nlohmann::json& json) {
+    calibration.T_vehicle_up_lidar = importing::pose_from_json(json.at("vehicle_SE3_up_lidar_"));
+    calibration.T_vehicle_down_lidar =
+        importing::pose_from_json(json.at("vehicle_SE3_down_lidar_"));
     for (const nlohmann::json& camera : json.at("camera_data_")) {
       const auto key = camera.at("key").get<std::string>();
       if (key.rfind(kCameraPrefix, 0) != 0) continue;

@@ -5,7 +5,7 @@
 #include <map>
 #include <stdexcept>
 
-#include "argoverse2rawlog/json_file.h"
+#include "import/json_file.h"
 
 namespace lidar_upsampling::argoverse {
 namespace {
@@ -18,8 +18,8 @@ Pose T_vehicle_object(const nlohmann::json& label) {
     return label.at(group).at(name).get<double>();
   };
   Pose T = Pose::Identity();
-  T.linear() = rotation_from(number("rotation", "w"), number("rotation", "x"),
-                             number("rotation", "y"), number("rotation", "z"));
+  T.linear() = importing::rotation_from(number("rotation", "w"), number("rotation", "x"),
+                                        number("rotation", "y"), number("rotation", "z"));
   T.translation() =
       Eigen::Vector3d(number("center", "x"), number("center", "y"), number("center", "z"));
   return T;
@@ -42,7 +42,7 @@ std::vector<ObjectTrack> read_tracks(const std::vector<StampedFile>& files, cons
   for (const StampedFile& file : files) {
     const auto vehicle = ego.at(file.stamp);
     if (!vehicle) continue;
-    with_json(file.path, [&](const nlohmann::json& labels) {
+    importing::with_json(file.path, [&](const nlohmann::json& labels) {
       for (const nlohmann::json& label : labels) {
         const auto uuid = label.at("track_label_uuid").get<std::string>();
         const auto [place, is_new] = places.emplace(uuid, tracks.size());

@@ -10,7 +10,7 @@
 
 #include "argoverse2rawlog/argoverse_labels.h"
 #include "argoverse2rawlog/argoverse_sweep.h"
-#include "argoverse2rawlog/json_file.h"
+#include "import/json_file.h"
 #include "lidar_upsampling/io/carriers.h"
 #include "lidar_upsampling/io/images.h"
 
@@ -51,8 +51,8 @@ CameraFiles open_camera(const std::string& folder, const std::string& name,
 std::vector<PoseSample> read_poses(const std::string& folder) {
   std::vector<PoseSample> poses;
   for (const StampedFile& file : stamped_files(folder, "city_SE3_egovehicle_", ".json")) {
-    with_json(file.path, [&](const nlohmann::json& json) {
-      poses.push_back({file.stamp, pose_from_json(json)});
+    importing::with_json(file.path, [&](const nlohmann::json& json) {
+      poses.push_back({file.stamp, importing::pose_from_json(json)});
     });
   }
   return poses;

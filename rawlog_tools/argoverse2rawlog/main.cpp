@@ -28,6 +28,9 @@ void convert(const Options& options) {
     labels.emplace(options.labels);
     add_tracks(log, options.log);
     labels->write(labels_of(log));
+    for (const std::string& warning : labels->warnings()) {
+      std::cerr << "argoverse2rawlog: warning: " << warning << "\n";
+    }
   }
   std::cout << "lidar: " << log.sweeps.size() << " sweeps\n";
   for (const CameraFiles& files : log.cameras) {
@@ -41,7 +44,7 @@ void convert(const Options& options) {
   if (labels) labels->commit();
   writer.commit();
   if (labels) {
-    std::cout << log.tracks.size() << " objects, " << labels->num_boxes() << " boxes\n";
+    std::cout << labels->num_objects() << " objects, " << labels->num_boxes() << " boxes\n";
   }
   std::cout << writer.num_written() << " observations in " << options.output << "\n";
 }

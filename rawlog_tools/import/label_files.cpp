@@ -2,24 +2,26 @@
 // Copyright (c) 2026, the lidar_upsampling authors
 #include "import/label_files.h"
 
+#include <filesystem>
 #include <iomanip>
 #include <set>
 #include <stdexcept>
 
 #include "import/box_projection.h"
-#include "import/truth_tables.h"
+#include "import/track_jumps.h"
 
 namespace lidar_upsampling::importing {
 namespace {
 
-std::string ego_path(const std::string& objects_path) {
+// Of another table beside the objects'.
+std::string beside(const std::string& objects_path, const std::string& new_ending) {
   const std::string ending = "_objects.csv";
   const auto at = objects_path.rfind(ending);
   if (at == std::string::npos || at + ending.size() != objects_path.size()) {
     throw std::runtime_error("--truth-objects " + objects_path + ": the name must end in " +
                              ending + ", as the ego-motion goes to ..._ego.csv beside it");
   }
-  return objects_path.substr(0, at) + "_ego.csv";
+  return objects_path.substr(0, at) + new_ending;
 }
 
 std::vector<PoseSample> ego_at_all_stamps(const LabelledLog& log, const Trajectory& ego) {
@@ -49,24 +51,37 @@ std::optional<Box2d> box_on_picture(const Camera& camera, Stamp stamp, const Tra
 LabelFiles::LabelFiles(const LabelPaths& paths) {
   if (!paths.boxes.empty()) boxes_.emplace(paths.boxes, paths.overwrite);
   if (paths.truth_objects.empty()) return;
-  ego_.emplace(ego_path(paths.truth_objects), paths.overwrite);
+  ego_.emplace(beside(paths.truth_objects, "_ego.csv"), paths.overwrite);
+  ignored_path_ = beside(paths.truth_objects, "_ignored.csv");
+  ignored_.emplace(ignored_path_, paths.overwrite);
   objects_.emplace(paths.truth_objects, paths.overwrite);
 }
 
 void LabelFiles::write(const LabelledLog& log) {
+  const SteadyTracks steady = without_jumps(log.tracks);
+  if (const std::string warning = warning_of(steady); !warning.empty()) {
+    warnings_.push_back(warning);
+  }
+  num_objects_ = steady.tracks.size();
   Trajectory ego;
   for (const PoseSample& sample : log.ego) ego.add(sample);
-  if (boxes_) write_boxes(log, ego);
+  if (boxes_) write_boxes(log, steady.tracks, ego);
   if (!objects_) return;
-  write_objects_table(objects_->stream(), log.tracks);
+  write_objects_table(objects_->stream(), steady.tracks);
   write_ego_table(ego_->stream(), ego_at_all_stamps(log, ego));
+  if (log.ignored.empty()) {
+    ignored_.reset();
+  } else {
+    write_ignored_table(ignored_->stream(), log.ignored);
+  }
 }
 
-void LabelFiles::write_boxes(const LabelledLog& log, const Trajectory& ego) {
+void LabelFiles::write_boxes(const LabelledLog& log, const std::vector<ObjectTrack>& tracks,
+                             const Trajectory& ego) {
   std::ostream& out = boxes_->stream();
   out << "label,stamp,class,score,left,top,right,bottom,track\n"
       << std::fixed << std::setprecision(2);
-  for (const ObjectTrack& track : log.tracks) {
+  for (const ObjectTrack& track : tracks) {
     const TrackInterpolator positions(track);
     for (const auto& [camera, stamps] : log.cameras) {
       for (const Stamp stamp : stamps) {
@@ -82,7 +97,9 @@ void LabelFiles::write_boxes(const LabelledLog& log, const Trajectory& ego) {
 }
 
 void LabelFiles::commit() {
-  for (auto* file : {&boxes_, &objects_, &ego_}) {
+  // One that a former import left does not belong to these labels.
+  if (objects_ && !ignored_) std::filesystem::remove(ignored_path_);
+  for (auto* file : {&boxes_, &objects_, &ego_, &ignored_}) {
     if (*file) (*file)->commit();
   }
 }

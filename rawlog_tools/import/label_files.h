@@ -7,14 +7,16 @@
 #include <vector>
 
 #include "import/object_tracks.h"
+#include "import/truth_tables.h"
 #include "rawlog-simulate/output_file.h"
 
 namespace lidar_upsampling::importing {
 
 /// Where the labels go; empty: nowhere.
 struct LabelPaths {
-  std::string boxes;          ///< the detections CSV that rawlog-densify reads
-  std::string truth_objects;  ///< ..._objects.csv; ..._ego.csv goes beside it
+  std::string boxes;  ///< the detections CSV that rawlog-densify reads
+  /// ..._objects.csv; ..._ego.csv goes beside it, and ..._ignored.csv where there is such.
+  std::string truth_objects;
   bool overwrite = false;
 
   [[nodiscard]] bool any() const { return !boxes.empty() || !truth_objects.empty(); }
@@ -31,6 +33,7 @@ struct LabelledLog {
   std::vector<PoseSample> ego;
   std::vector<Stamp> scans;
   std::vector<CameraStamps> cameras;
+  std::vector<IgnoredArea> ignored;
 };
 
 /// @brief Writes a log's labels; the files get their names on `commit()`.
@@ -41,17 +44,23 @@ class LabelFiles {
   explicit LabelFiles(const LabelPaths& paths);
 
   /// @brief Boxes at every picture, objects at every label, the ego at every pose, scan and picture
-  /// that it is known for.
+  /// that it is known for. Labels that jump are left out (track_jumps.h).
   void write(const LabelledLog& log);
   void commit();
 
   [[nodiscard]] std::size_t num_boxes() const { return num_boxes_; }
+  [[nodiscard]] std::size_t num_objects() const { return num_objects_; }
+  /// What was left out of the labels, in a line each.
+  [[nodiscard]] const std::vector<std::string>& warnings() const { return warnings_; }
 
  private:
-  void write_boxes(const LabelledLog& log, const Trajectory& ego);
+  void write_boxes(const LabelledLog& log, const std::vector<ObjectTrack>& tracks,
+                   const Trajectory& ego);
 
-  std::optional<sim::OutputFile> boxes_, objects_, ego_;
-  std::size_t num_boxes_ = 0;
+  std::string ignored_path_;
+  std::optional<sim::OutputFile> boxes_, objects_, ego_, ignored_;
+  std::size_t num_boxes_ = 0, num_objects_ = 0;
+  std::vector<std::string> warnings_;
 };
 
 }  // namespace lidar_upsampling::importing

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <utility>
 
 namespace lidar_upsampling::importing {
 namespace {
@@ -15,35 +16,62 @@ constexpr InterpolationLimits kLabelLimits{0.35, 0.06};
 
 double yaw_of(const Pose& T) { return std::atan2(T.linear()(1, 0), T.linear()(0, 0)); }
 
-bool moves_about(const ObjectTrack& track, std::size_t index) {
+// The labels about one of them, as far as `reach` goes.
+std::vector<ObjectPose> labels_about(const ObjectTrack& track, std::size_t index, double reach_s) {
+  constexpr double kRoom = 1e-3;  // s; the fit is the one to say who lies on the edge
   const auto& poses = track.poses;
-  std::size_t from = index, to = index;
-  const auto near = [&](std::size_t i) {
-    // Half a tick of room for stamps that are exactly the window away.
-    return std::abs(seconds_between(poses[index].stamp, poses[i].stamp)) < kMovingWindow + 5e-8;
-  };
-  while (from > 0 && near(from - 1)) --from;
-  while (to + 1 < poses.size() && near(to + 1)) ++to;
-  const double dt = seconds_between(poses[from].stamp, poses[to].stamp);
-  const Eigen::Vector3d step =
-      poses[to].T_world_object.translation() - poses[from].T_world_object.translation();
-  return step.norm() > kSlowestMoving * dt;
+  const Stamp stamp = poses[index].stamp;
+  const auto earlier = [](const ObjectPose& pose, Stamp limit) { return pose.stamp < limit; };
+  const auto first =
+      std::lower_bound(poses.begin(), poses.end(), shifted(stamp, -reach_s - kRoom), earlier);
+  return {first, std::lower_bound(first, poses.end(), shifted(stamp, reach_s + kRoom), earlier)};
+}
+
+std::vector<LabelledPosition> positions_of(const std::vector<ObjectPose>& poses) {
+  std::vector<LabelledPosition> positions;
+  for (const ObjectPose& pose : poses) {
+    positions.push_back({pose.stamp, pose.T_world_object.translation()});
+  }
+  return positions;
+}
+
+// The yaw as a first coordinate, without its jump from pi to -pi.
+std::vector<LabelledPosition> yaws_of(const std::vector<ObjectPose>& poses) {
+  std::vector<LabelledPosition> yaws;
+  double yaw = poses.empty() ? 0 : yaw_of(poses.front().T_world_object);
+  for (const ObjectPose& pose : poses) {
+    yaw += std::remainder(yaw_of(pose.T_world_object) - yaw, 2 * M_PI);
+    yaws.push_back({pose.stamp, {yaw, 0, 0}});
+  }
+  return yaws;
 }
 
 }  // namespace
 
-ObjectVelocity velocity_at(const ObjectTrack& track, std::size_t index) {
-  const auto& poses = track.poses;
-  const ObjectPose& a = poses[index == 0 ? 0 : index - 1];
-  const ObjectPose& b = poses[std::min(index + 1, poses.size() - 1)];
-  const double dt = seconds_between(a.stamp, b.stamp);
-  if (dt <= 0) return {};
-  ObjectVelocity velocity;
-  velocity.linear = (b.T_world_object.translation() - a.T_world_object.translation()) / dt;
-  velocity.yaw_rate =
-      std::remainder(yaw_of(b.T_world_object) - yaw_of(a.T_world_object), 2 * M_PI) / dt;
-  velocity.moves = moves_about(track, index);
-  return velocity;
+LabelWindow label_window_of(const std::vector<ObjectTrack>& tracks) {
+  std::vector<Stamp> stamps;
+  for (const ObjectTrack& track : tracks) {
+    for (const ObjectPose& pose : track.poses) stamps.push_back(pose.stamp);
+  }
+  return label_window(std::move(stamps));
+}
+
+std::optional<ObjectVelocity> velocity_at(const ObjectTrack& track, std::size_t index,
+                                          const LabelWindow& window) {
+  const Stamp stamp = track.poses[index].stamp;
+  const std::vector<ObjectPose> near = labels_about(track, index, window.half_width_s);
+  const auto linear = fit_velocity(positions_of(near), stamp, window);
+  const auto turn = fit_velocity(yaws_of(near), stamp, window);
+  if (!linear || !turn) return std::nullopt;
+  return ObjectVelocity{linear->velocity, turn->velocity.x()};
+}
+
+bool moves_at(const ObjectTrack& track, std::size_t index, const LabelWindow& window) {
+  LabelWindow wide = window;
+  wide.half_width_s = std::max(wide.half_width_s, kMovingWindow);
+  const auto labels = positions_of(labels_about(track, index, wide.half_width_s));
+  const auto mean = fit_velocity(labels, track.poses[index].stamp, wide);
+  return mean && mean->velocity.norm() > kSlowestMoving;
 }
 
 TrackInterpolator::TrackInterpolator(const ObjectTrack& track)

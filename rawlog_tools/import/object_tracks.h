@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "lidar_upsampling/ego/trajectory.h"
+#include "lidar_upsampling/metrics/label_velocity.h"
 #include "lidar_upsampling/types.h"
 
 namespace lidar_upsampling::importing {
@@ -29,12 +30,19 @@ struct ObjectTrack {
 struct ObjectVelocity {
   Eigen::Vector3d linear = Eigen::Vector3d::Zero();  ///< m/s over ground
   double yaw_rate = 0;                               ///< rad/s
-  bool moves = false;
 };
 
-/// @brief The velocity at a label, by the difference of its neighbours. Labels jump by centimetres,
-/// so `moves` asks for more than 0.5 m/s on average over the half second before and after.
-[[nodiscard]] ObjectVelocity velocity_at(const ObjectTrack& track, std::size_t index);
+/// What a log's labels tell of velocities: see metrics/label_velocity.h.
+[[nodiscard]] LabelWindow label_window_of(const std::vector<ObjectTrack>& tracks);
+
+/// @brief The velocity at a label: straight lines through the labels about it. None where they are
+/// too few.
+[[nodiscard]] std::optional<ObjectVelocity> velocity_at(const ObjectTrack& track, std::size_t index,
+                                                        const LabelWindow& window);
+
+/// @brief Whether it makes more than 0.5 m/s over the half second before and after: labels jump by
+/// centimetres. False where the labels are too few to tell.
+[[nodiscard]] bool moves_at(const ObjectTrack& track, std::size_t index, const LabelWindow& window);
 
 /// @brief A track's pose at any time within its labels and up to 60 ms outside, as a picture may be
 /// taken just before the first of them or after the last. None elsewhere, and where it is hidden.

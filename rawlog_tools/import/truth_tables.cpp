@@ -36,22 +36,29 @@ void write_pose(std::ostream& out, const Pose& T) {
       << ',' << pose.roll();
 }
 
+void write_velocity(std::ostream& out, const std::optional<ObjectVelocity>& velocity) {
+  if (!velocity) {
+    out << ",,,,";
+    return;
+  }
+  const Eigen::Vector3d& v = velocity->linear;
+  out << ',' << v.x() << ',' << v.y() << ',' << v.z() << ',' << velocity->yaw_rate;
+}
+
 }  // namespace
 
 void write_objects_table(std::ostream& out, const std::vector<ObjectTrack>& tracks) {
   out << "stamp,id,class,x,y,z,yaw,pitch,roll,length,width,height,vx,vy,vz,yaw_rate,moving\n"
       << std::fixed << std::setprecision(6);
+  const LabelWindow window = label_window_of(tracks);
   for (const Row& row : rows_in_time_order(tracks)) {
     const ObjectTrack& track = *row.track;
-    const ObjectVelocity v = velocity_at(track, row.index);
     out << row.stamp.time_since_epoch().count() << ',' << track.id << ',' << track.class_name
         << ',';
     write_pose(out, track.poses[row.index].T_world_object);
-    for (const double value : {track.size.x(), track.size.y(), track.size.z(), v.linear.x(),
-                               v.linear.y(), v.linear.z(), v.yaw_rate}) {
-      out << ',' << value;
-    }
-    out << ',' << (v.moves ? 1 : 0) << '\n';
+    for (const double value : {track.size.x(), track.size.y(), track.size.z()}) out << ',' << value;
+    write_velocity(out, velocity_at(track, row.index, window));
+    out << ',' << (moves_at(track, row.index, window) ? 1 : 0) << '\n';
   }
 }
 
@@ -61,6 +68,14 @@ void write_ego_table(std::ostream& out, const std::vector<PoseSample>& samples) 
     out << sample.stamp.time_since_epoch().count() << ',';
     write_pose(out, sample.T_world_vehicle);
     out << '\n';
+  }
+}
+
+void write_ignored_table(std::ostream& out, const std::vector<IgnoredArea>& areas) {
+  out << "stamp,camera,left,top,right,bottom\n" << std::fixed << std::setprecision(2);
+  for (const auto& [stamp, camera, area] : areas) {
+    out << stamp.time_since_epoch().count() << ',' << camera << ',' << area.left << ',' << area.top
+        << ',' << area.right << ',' << area.bottom << '\n';
   }
 }
 

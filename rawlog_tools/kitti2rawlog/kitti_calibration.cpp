@@ -101,6 +101,7 @@ Calibration read_calibration(const std::string& folder) {
   const Pose T_rectified_0_vehicle = T_rectified_0_camera_0 * T_camera_0_lidar * T_lidar_vehicle;
   Calibration calibration;
   calibration.T_vehicle_lidar = T_lidar_vehicle.inverse();
+  calibration.T_vehicle_rectified_0 = T_rectified_0_vehicle.inverse();
   for (int number = 0; number < 4; ++number) {
     if (!cameras.has("P_rect_0" + std::to_string(number))) continue;
     calibration.cameras[number] = camera_of_drive(cameras, number, T_rectified_0_vehicle);
@@ -115,6 +116,7 @@ Calibration read_sequence_calibration(const std::string& path) {
   T_camera_0_vehicle.linear() = nearest_rotation(Tr.leftCols<3>());
   T_camera_0_vehicle.translation() = Tr.col(3);
   Calibration calibration;
+  calibration.T_vehicle_rectified_0 = T_camera_0_vehicle.inverse();
   for (int number = 0; number < 4; ++number) {
     const std::string name = "P" + std::to_string(number);
     if (!entries.has(name)) continue;

@@ -21,6 +21,7 @@ using CalibrationFile = std::map<std::string, std::vector<double>>;
 /// the LiDAR's: +X forward, +Y left, +Z up.
 struct Calibration {
   Pose T_vehicle_lidar = Pose::Identity();
+  Pose T_vehicle_rectified_0 = Pose::Identity();  ///< of camera 0 after rectification
   std::map<int, Camera>
       cameras;  ///< by KITTI's number 0 to 3; the rectified model, without distortion
 };

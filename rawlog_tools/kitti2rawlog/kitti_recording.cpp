@@ -7,6 +7,7 @@
 
 #include "kitti2rawlog/kitti_calibration.h"
 #include "kitti2rawlog/kitti_frames.h"
+#include "kitti2rawlog/kitti_label_tracks.h"
 #include "kitti2rawlog/kitti_sequence.h"
 #include "kitti2rawlog/kitti_tracklets.h"
 #include "lidar_upsampling/io/carriers.h"
@@ -65,6 +66,15 @@ void read_sequence_poses(const fs::path& sequence, const FrameStamps& stamps,
   }
 }
 
+std::string label_file_of(const std::string& drive) {
+  const std::string tracklets = drive + "/tracklet_labels.xml", labels = drive + "/label_02.txt";
+  if (fs::is_regular_file(tracklets)) return tracklets;
+  if (fs::is_regular_file(labels)) return labels;
+  throw std::runtime_error("there is no " + tracklets +
+                           " nor label_02.txt: --boxes and --truth-objects need one of them, or "
+                           "--labels FILE");
+}
+
 std::vector<Stamp> stamps_of(const SensorFrames& sensor) {
   std::vector<Stamp> stamps;
   for (const Frame& frame : sensor.files.frames) stamps.push_back(frame.stamp);
@@ -80,6 +90,7 @@ Recording open_drive(const std::string& folder, const Selection& selection) {
   const Calibration calibration = read_calibration(fs::canonical(folder).parent_path().string());
   Recording recording;
   recording.T_vehicle_lidar = calibration.T_vehicle_lidar;
+  recording.T_vehicle_rectified_0 = calibration.T_vehicle_rectified_0;
   recording.pose_label = "OXTS";
   recording.scans = drive_frames(folder, "velodyne_points", {".bin"}, range);
   for (const int number : selection.cameras) {
@@ -103,6 +114,7 @@ Recording open_sequence(const std::string& folder, const Selection& selection) {
   const FrameStamps stamps = read_times(folder + "/times.txt");
   Recording recording;
   recording.T_vehicle_lidar = calibration.T_vehicle_lidar;
+  recording.T_vehicle_rectified_0 = calibration.T_vehicle_rectified_0;
   recording.pose_label = "POSES";
   recording.scans = {"velodyne", list_frames(folder + "/velodyne", stamps, {6, {".bin"}}, range)};
   for (const int number : selection.cameras) {
@@ -122,19 +134,25 @@ Recording open_sequence(const std::string& folder, const Selection& selection) {
   return recording;
 }
 
-void add_tracks(Recording& recording, const std::string& drive) {
-  const std::string path = drive + "/tracklet_labels.xml";
-  if (!fs::is_regular_file(path)) {
-    throw std::runtime_error("there is no " + path + ": --boxes and --truth-objects need it");
-  }
+std::vector<std::string> add_tracks(Recording& recording, const std::string& drive,
+                                    const std::string& labels) {
+  const std::string path = labels.empty() ? label_file_of(drive) : labels;
   if (recording.poses.empty()) {
     throw std::runtime_error(drive +
-                             " has no oxts: --boxes and --truth-objects need the vehicle's poses");
+                             " has no oxts: --boxes and --truth-objects need the vehicle's poses "
+                             "to put labels over ground (is the drive's oxts folder unpacked?)");
   }
   Trajectory ego;
   for (const PoseSample& sample : recording.poses) ego.add(sample);
-  recording.tracks = tracks_in_world(read_tracklets(path), recording.scans.files.frames,
-                                     recording.T_vehicle_lidar, ego);
+  if (fs::path(path).extension() == ".xml") {
+    recording.tracks = tracks_in_world(read_tracklets(path), recording.scans.files.frames,
+                                       recording.T_vehicle_lidar, ego);
+    return {};
+  }
+  LabelledDrive labelled = labels_in_world({path, read_labels(path)}, recording, ego);
+  recording.tracks = std::move(labelled.tracks);
+  recording.ignored = std::move(labelled.ignored);
+  return labelled.warnings;
 }
 
 std::vector<importing::LogItem> items_of(const Recording& recording) {
@@ -163,6 +181,7 @@ std::vector<importing::LogItem> items_of(const Recording& recording) {
 importing::LabelledLog labels_of(const Recording& recording) {
   importing::LabelledLog log;
   log.tracks = recording.tracks;
+  log.ignored = recording.ignored;
   log.ego = recording.poses;
   log.scans = stamps_of(recording.scans);
   for (const CameraFrames& sensor : recording.cameras) {

@@ -32,12 +32,14 @@ struct CameraFrames {
 /// A drive of the raw layout or a sequence of the odometry layout.
 struct Recording {
   Pose T_vehicle_lidar = Pose::Identity();
+  Pose T_vehicle_rectified_0 = Pose::Identity();  ///< of camera 0, which labels are given in
   SensorFrames scans;
   std::vector<CameraFrames> cameras;
   SensorFrames pose_frames;       ///< no name: there are no poses
   std::string pose_label;         ///< OXTS or POSES
   std::vector<PoseSample> poses;  ///< one per frame of `pose_frames`
   std::vector<importing::ObjectTrack> tracks;
+  std::vector<importing::IgnoredArea> ignored;
 };
 
 /// @brief A drive's folder, its calibration files one up.
@@ -48,9 +50,13 @@ struct Recording {
 /// @throw std::runtime_error as above, or no picture to tell a camera's size.
 [[nodiscard]] Recording open_sequence(const std::string& folder, const Selection& selection);
 
-/// @brief Adds the tracks of the drive's `tracklet_labels.xml`.
-/// @throw std::runtime_error there is none, or there are no poses to put it over ground with.
-void add_tracks(Recording& recording, const std::string& drive);
+/// @brief Adds the tracks of a label file: `labels`, or if that is empty the drive's
+/// `tracklet_labels.xml`, or its `label_02.txt`.
+/// @return what of the labels was left out, in a line each.
+/// @throw std::runtime_error there is none, it is none of this drive, or there are no poses to put
+/// it over ground with.
+[[nodiscard]] std::vector<std::string> add_tracks(Recording& recording, const std::string& drive,
+                                                  const std::string& labels);
 
 /// Every scan, picture and pose. The recording must outlive the items.
 [[nodiscard]] std::vector<importing::LogItem> items_of(const Recording& recording);

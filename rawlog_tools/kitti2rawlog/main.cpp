@@ -2,7 +2,7 @@
 // Copyright (c) 2026, the lidar_upsampling authors
 
 // Turns a drive in KITTI's raw layout, or a sequence in its odometry layout, into a log: scans
-// LIDAR, images CAM0 to CAM3, poses OXTS or POSES; and a drive's tracklets into boxes and truth.
+// LIDAR, images CAM0 to CAM3, poses OXTS or POSES; and a drive's labels into boxes and truth.
 #include <iostream>
 #include <optional>
 
@@ -16,6 +16,7 @@ struct Options {
   std::string drive, sequence;  // one of them
   std::string output;
   Selection selection;
+  std::string label_file;
   importing::LabelPaths labels;
   bool overwrite = false;
 };
@@ -44,14 +45,24 @@ Recording open_recording(const Options& options) {
   return recording;
 }
 
+void warn(const std::vector<std::string>& warnings) {
+  for (const std::string& warning : warnings) {
+    std::cerr << "kitti2rawlog: warning: " << warning << "\n";
+  }
+}
+
 void convert(const Options& options) {
+  if (!options.label_file.empty() && !options.labels.any()) {
+    throw std::runtime_error("--labels needs --truth-objects or --boxes, where they go");
+  }
   RawlogWriter writer(options.output, options.overwrite);
   Recording recording = open_recording(options);
   std::optional<importing::LabelFiles> labels;
   if (options.labels.any()) {
     labels.emplace(options.labels);
-    add_tracks(recording, options.drive);
+    warn(add_tracks(recording, options.drive, options.label_file));
     labels->write(labels_of(recording));
+    warn(labels->warnings());
   }
   {
     Progress progress("converting");
@@ -60,7 +71,7 @@ void convert(const Options& options) {
   if (labels) labels->commit();
   writer.commit();
   if (labels) {
-    std::cout << recording.tracks.size() << " objects, " << labels->num_boxes() << " boxes\n";
+    std::cout << labels->num_objects() << " objects, " << labels->num_boxes() << " boxes\n";
   }
   std::cout << writer.num_written() << " observations in " << options.output << "\n";
 }
@@ -81,11 +92,16 @@ void add_options(CLI::App& app, Options& options) {
   FrameRange& frames = options.selection.frames;
   app.add_option("--first", frames.first, "First frame")->check(CLI::Range(0, 1000000000));
   app.add_option("--last", frames.last, "Last frame, included")->check(CLI::Range(0, 1000000000));
-  app.add_option("--boxes", options.labels.boxes,
-                 "Detections CSV to make from the drive's tracklet_labels.xml")
+  app.add_option(
+         "--labels", options.label_file,
+         "tracklet_labels.xml, or a file in the format of the tracking benchmark's label_02 "
+         "[the drive's tracklet_labels.xml or label_02.txt]")
+      ->excludes(sequence)
+      ->check(CLI::ExistingFile);
+  app.add_option("--boxes", options.labels.boxes, "Detections CSV to make from the labels")
       ->excludes(sequence);
   app.add_option("--truth-objects", options.labels.truth_objects,
-                 "Truth table ..._objects.csv to make from it, ..._ego.csv beside")
+                 "Truth table ..._objects.csv to make from them, ..._ego.csv beside")
       ->excludes(sequence);
   app.add_flag("--overwrite", options.overwrite, "Replace existing outputs");
 }

@@ -35,6 +35,12 @@ std::string text_of(const Eigen::MatrixXd& values) {
 
 Pose T_camera_0_camera_2() { return Pose(Eigen::Translation3d(-kOffsetOfCamera2, 0, 0)); }
 
+// What the day's calibration says of it: the pictures are turned a little by rectification.
+Pose T_rectification() {
+  return Pose(Eigen::AngleAxisd(0.02, Eigen::Vector3d(0.3, 0.8, -0.5).normalized()));
+}
+
+// Camera 0 as rectified; in the odometry layout, as it is.
 Pose T_camera_0_lidar(const SmallStreet& street) {
   return T_camera_0_camera_2() * street.camera.camera.T_vehicle_camera.inverse() *
          street.lidar.T_vehicle_lidar;
@@ -64,11 +70,13 @@ void write_rigid_motion(const fs::path& file, const Pose& T) {
 
 void write_day_calibration(const fs::path& day, const SmallStreet& street) {
   write_rigid_motion(day / "calib_imu_to_velo.txt", street.lidar.T_vehicle_lidar.inverse());
-  write_rigid_motion(day / "calib_velo_to_cam.txt", T_camera_0_lidar(street));
+  write_rigid_motion(day / "calib_velo_to_cam.txt",
+                     T_rectification().inverse() * T_camera_0_lidar(street));
   const CameraModel& model = street.camera.camera.model;
   std::ofstream(day / "calib_cam_to_cam.txt")
-      << "R_rect_00: 1 0 0 0 1 0 0 0 1\nS_rect_02: " << model.width << " " << model.height
-      << "\nP_rect_02: " << text_of(projection_of(model, kOffsetOfCamera2)) << "\n";
+      << "R_rect_00: " << text_of(T_rectification().linear()) << "\nS_rect_02: " << model.width
+      << " " << model.height << "\nP_rect_02: " << text_of(projection_of(model, kOffsetOfCamera2))
+      << "\n";
 }
 
 void write_stamps(const fs::path& folder, Stamp (*stamp_of)(int)) {
@@ -135,7 +143,40 @@ void write_tracklets(const fs::path& file, const SmallStreet& street) {
   out << "</tracklets>\n</boost_serialization>\n";
 }
 
+// Of one object; the format knows no roll and pitch, and the point at the bottom is below the
+// middle along the camera's axis.
+std::string label_row(const SmallStreet& street, int id, int track, int frame) {
+  const Stamp stamp = frame_stamp(frame);
+  const Pose T_world_lidar = street.T_world_vehicle(stamp) * street.lidar.T_vehicle_lidar;
+  const Pose T =
+      T_camera_0_lidar(street) * T_world_lidar.inverse() * street.T_world_object(id, stamp);
+  const Eigen::Vector3d size = street.size_of(id), forward = T.linear().col(0);
+  std::string type = street.world.objects[static_cast<std::size_t>(id)].class_name;
+  type[0] = static_cast<char>(std::toupper(type[0]));
+  char row[400];
+  std::snprintf(row, sizeof row, "%d %d %s 0 0 -1.5 1 2 3 4 %.9f %.9f %.9f %.9f %.9f %.9f %.9f\n",
+                frame, track, type.c_str(), size.z(), size.y(), size.x(), T.translation().x(),
+                T.translation().y() + 0.5 * size.z(), T.translation().z(),
+                std::atan2(-forward.z(), forward.x()));
+  return row;
+}
+
 }  // namespace
+
+std::string label_02_text(const SmallStreet& street) {
+  const std::vector<int> ids = street.ids();
+  std::string text;
+  for (int i = 0; i < kNumFrames; ++i) {
+    if (i % 2 == 0) {
+      text += std::to_string(i) +
+              " -1 DontCare -1 -1 -10 10.5 20 30 40.25 -1000 -1000 -1000 -10 -1 -1 -1\n";
+    }
+    for (std::size_t n = 0; n < ids.size(); ++n) {
+      text += label_row(street, ids[n], kFirstLabelTrack + static_cast<int>(n), i);
+    }
+  }
+  return text;
+}
 
 KittiPoints kitti_points(const SmallStreet& street, Stamp stamp) {
   const LidarScan scan = street.scan(stamp);
@@ -160,6 +201,10 @@ KittiPoints kitti_points(const SmallStreet& street, Stamp stamp) {
 
 Stamp drive_picture_stamp(int frame) { return shifted(frame_stamp(frame), 0.01); }
 Stamp drive_oxts_stamp(int frame) { return shifted(frame_stamp(frame), -0.001); }
+
+Pose T_drive_world(const SmallStreet& street) {
+  return Pose(Eigen::Translation3d(-street.T_world_vehicle(drive_oxts_stamp(0)).translation()));
+}
 
 fs::path write_drive(const fs::path& day, const SmallStreet& street) {
   fs::path drive = day / "drive";

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 #include "small_street.h"
 
@@ -19,6 +20,9 @@ struct KittiPoints {
 [[nodiscard]] Stamp drive_picture_stamp(int frame);
 [[nodiscard]] Stamp drive_oxts_stamp(int frame);
 
+/// The reader's world begins where OXTS does.
+[[nodiscard]] Pose T_drive_world(const SmallStreet& street);
+
 /// The first frame in which the n-th labelled object is labelled, and the one in which the first
 /// is labelled as fully occluded.
 [[nodiscard]] inline int first_labelled_frame(int n) { return n == 1 ? 1 : 0; }
@@ -27,6 +31,11 @@ constexpr int kOccludedFrame = 2;
 /// @brief Writes `<day>/drive` in KITTI's raw layout, its calibration files in `day`.
 /// @return the drive's folder.
 std::filesystem::path write_drive(const std::filesystem::path& day, const SmallStreet& street);
+
+/// @brief The drive's objects in the format of the tracking benchmark's label_02, the n-th labelled
+/// one as track kFirstLabelTrack + n; every other frame has an area that nobody labelled, too.
+[[nodiscard]] std::string label_02_text(const SmallStreet& street);
+constexpr int kFirstLabelTrack = 7;
 
 /// @brief Writes `<root>/sequences/04` and `<root>/poses/04.txt`, pictures and scans at one time.
 /// @return the sequence's folder.

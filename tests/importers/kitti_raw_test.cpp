@@ -42,11 +42,6 @@ void expect_columns_of_the_simulator(const TestFolder& folder) {
   EXPECT_EQ(header_of(folder / "boxes.csv"), boxes.str());
 }
 
-// The reader's world begins where OXTS does.
-Pose T_log_world(const SmallStreet& street) {
-  return Pose(Eigen::Translation3d(-street.T_world_vehicle(drive_oxts_stamp(0)).translation()));
-}
-
 TEST(KittiRawLayout, scans_images_and_poses_come_back) {
   const TestFolder folder;
   const SmallStreet street;
@@ -70,7 +65,7 @@ TEST(KittiRawLayout, scans_images_and_poses_come_back) {
     EXPECT_EQ(log.poses[i].stamp, drive_oxts_stamp(i));
     EXPECT_EQ(log.pose_labels[i], "OXTS");
     expect_near(log.poses[i].T_world_vehicle,
-                T_log_world(street) * street.T_world_vehicle(drive_oxts_stamp(i)), 1e-5);
+                T_drive_world(street) * street.T_world_vehicle(drive_oxts_stamp(i)), 1e-5);
   }
 }
 
@@ -91,14 +86,14 @@ TEST(KittiRawLayout, tracklets_become_truth_tables) {
     for (int n = 0; n < static_cast<int>(ids.size()); ++n) {
       if (i >= first_labelled_frame(n)) track_of_object[ids[n]] = n;
     }
-    expect_objects_true(rows, street, frame_stamp(i), frame_stamp(i), T_log_world(street),
+    expect_objects_true(rows, street, frame_stamp(i), frame_stamp(i), T_drive_world(street),
                         track_of_object);
   }
   const TruthRows ego = read_truth_table(folder / "x_ego.csv");
   EXPECT_EQ(ego.size(), 3U * kNumFrames);  // at scans, pictures and OXTS
   for (const auto& [key, row] : ego) {
     const Stamp stamp{mrpt::Clock::duration(key.first)};
-    expect_near(pose_in(row), T_log_world(street) * street.T_world_vehicle(stamp), 5e-3);
+    expect_near(pose_in(row), T_drive_world(street) * street.T_world_vehicle(stamp), 5e-3);
   }
 }
 

@@ -2,8 +2,11 @@
 // Copyright (c) 2026, the lidar_upsampling authors
 #include <gtest/gtest.h>
 
+#include <sstream>
+
 #include "import/box_projection.h"
 #include "import/object_tracks.h"
+#include "import/truth_tables.h"
 #include "simulator/scenario.h"
 
 namespace lidar_upsampling::importing {
@@ -89,13 +92,32 @@ ObjectTrack drive_by(int num_labels) {
 
 TEST(ObjectTracks, have_the_velocity_of_their_labels) {
   const ObjectTrack track = drive_by(5);
+  const LabelWindow window = label_window_of({track});
   for (std::size_t i = 0; i < 5; ++i) {
-    const ObjectVelocity v = velocity_at(track, i);
-    EXPECT_LT((v.linear - Eigen::Vector3d(0, 3, 0)).norm(), 1e-9) << i;
-    EXPECT_NEAR(v.yaw_rate, 0.5, 1e-9) << i;  // over the jump from pi to -pi, too
-    EXPECT_TRUE(v.moves) << i;
+    const auto v = velocity_at(track, i, window);
+    ASSERT_TRUE(v) << i;
+    EXPECT_LT((v->linear - Eigen::Vector3d(0, 3, 0)).norm(), 1e-9) << i;
+    EXPECT_NEAR(v->yaw_rate, 0.5, 1e-9) << i;  // over the jump from pi to -pi, too
+    EXPECT_TRUE(moves_at(track, i, window)) << i;
   }
-  EXPECT_FALSE(velocity_at(drive_by(1), 0).moves);
+}
+
+TEST(ObjectTracks, too_short_for_a_velocity_have_empty_cells_in_the_table) {
+  const ObjectTrack longer = drive_by(9);
+  ObjectTrack shorter = drive_by(2);
+  shorter.id = 1;
+  const LabelWindow window = label_window_of({longer, shorter});
+  EXPECT_EQ(window.min_labels, 5);
+  EXPECT_FALSE(velocity_at(shorter, 0, window));
+  EXPECT_FALSE(moves_at(shorter, 0, window));
+  // At its end there are four labels within a third of a second, but six within half a one.
+  EXPECT_FALSE(velocity_at(longer, 0, window));
+  EXPECT_TRUE(moves_at(longer, 0, window));
+  std::ostringstream table;
+  write_objects_table(table, {longer, shorter});
+  EXPECT_NE(table.str().find(",1.500000,,,,,1\n"), std::string::npos) << table.str();
+  EXPECT_NE(table.str().find(",1.500000,,,,,0\n"), std::string::npos) << table.str();
+  EXPECT_NE(table.str().find(",1.500000,0.000000,3.000000,"), std::string::npos) << table.str();
 }
 
 TEST(ObjectTracks, a_parked_car_whose_labels_jump_does_not_move) {
@@ -104,7 +126,7 @@ TEST(ObjectTracks, a_parked_car_whose_labels_jump_does_not_move) {
     track.poses[i].T_world_object = Eigen::Translation3d(i % 2 == 0 ? 0.06 : -0.06, 0, 0);
   }
   for (std::size_t i = 0; i < track.poses.size(); ++i) {
-    EXPECT_FALSE(velocity_at(track, i).moves) << i;
+    EXPECT_FALSE(moves_at(track, i, label_window_of({track}))) << i;
   }
 }
 

@@ -214,8 +214,8 @@ void expect_objects_true(const TruthRows& rows, const SmallStreet& street, Stamp
     EXPECT_EQ(row.at("moving"), object.moves() ? "1" : "0");
     const sim::MotionState state = sim::state_at(object.motion, sim::time_of(stamp));
     const Eigen::Vector3d velocity(number(row, "vx"), number(row, "vy"), number(row, "vz"));
-    // By differences over 0.1 to 0.2 s.
-    EXPECT_LT((velocity - T_log_world.linear() * state.velocity()).norm(), 0.12);
+    // By straight lines, which at the log's ends are those of one who turned 0.15 s off.
+    EXPECT_LT((velocity - T_log_world.linear() * state.velocity()).norm(), 0.2);
     EXPECT_NEAR(number(row, "yaw_rate"), state.yaw_rate, 0.01);
   }
 }

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the lidar_upsampling authors
-#include "argoverse2rawlog/json_file.h"
+#include "import/json_file.h"
 
 #include <fstream>
 #include <stdexcept>
 
-namespace lidar_upsampling::argoverse {
+namespace lidar_upsampling::importing {
 
 void with_json(const std::string& path, const std::function<void(const nlohmann::json&)>& use) {
   std::ifstream in(path);
@@ -40,4 +40,4 @@ Pose pose_from_json(const nlohmann::json& json) {
   return T;
 }
 
-}  // namespace lidar_upsampling::argoverse
+}  // namespace lidar_upsampling::importing

@@ -8,7 +8,7 @@
 
 #include "lidar_upsampling/types.h"
 
-namespace lidar_upsampling::argoverse {
+namespace lidar_upsampling::importing {
 
 /// @brief Parses a file and hands it to `use`.
 /// @throw std::runtime_error with the file: unreadable, no JSON, or not what `use` expects of it.
@@ -23,4 +23,4 @@ void with_json(const std::string& path, const std::function<void(const nlohmann:
 /// @throw std::invalid_argument it has no length.
 [[nodiscard]] Eigen::Matrix3d rotation_from(double w, double x, double y, double z);
 
-}  // namespace lidar_upsampling::argoverse
+}  // namespace lidar_upsampling::importing
