@@ -7,78 +7,24 @@
 #include <set>
 
 #include "lidar_upsampling/units.h"
-#include "test_world.h"
+#include "shipped.h"
 
-// What the name of each shipped scenario promises, measured on its truth.
+// What the name of each shipped scenario promises, measured on its truth: as written (0), and as
+// seeds draw it.
 namespace lidar_upsampling::sim {
 namespace {
-
-struct Shipped {
-  Scenario scenario;
-  World world;
-  int num_scans_in_all = 0;
-  std::vector<Stamp> stamps;           ///< of the scans
-  std::vector<std::vector<int>> hits;  ///< points of each vehicle, per scan
-
-  explicit Shipped(const std::string& name, int every = 1)
-      : scenario(load_scenario(SCENARIO_FOLDER "/" + name + ".ini")),
-        world(build_world(scenario)),
-        stamps(stamps_of(scenario.lidar.rate_hz, scenario.lidar.phase_s, scenario.duration_s)) {
-    num_scans_in_all = static_cast<int>(stamps.size());
-    for (int i = 0; every * i < num_scans_in_all; ++i) stamps[i] = stamps[every * i];
-    stamps.resize((stamps.size() + every - 1) / every);
-    for (const Stamp stamp : stamps) {
-      const SimulatedScan scan = scan_at(world, scenario.lidar, stamp, scenario.seed);
-      std::vector<int> points(world.objects.size(), 0);
-      for (const int object : scan.object) ++points[object];
-      hits.emplace_back(points.begin() + first_vehicle(), points.end());
-    }
-  }
-
-  [[nodiscard]] int num_vehicles() const { return static_cast<int>(scenario.vehicles.size()); }
-  [[nodiscard]] int first_vehicle() const {
-    return static_cast<int>(world.objects.size()) - num_vehicles();
-  }
-  [[nodiscard]] MotionState vehicle_at(int vehicle, double t) const {
-    return state_at(scenario.vehicles[vehicle].motion, t);
-  }
-  // Within 40 m, its middle on the picture, and enough points to be found.
-  [[nodiscard]] bool in_view(int vehicle, std::size_t scan, int fewest_points = 20) const {
-    const Camera& camera = scenario.cameras[0].camera;
-    const double t = time_of(stamps[scan]);
-    const Eigen::Vector3d p = (world.T_world_vehicle(t) * camera.T_vehicle_camera).inverse() *
-                              (vehicle_at(vehicle, t).pose() * Eigen::Vector3d(0, 0, 0.8));
-    const double u = camera.model.fx * p.x() / p.z() + camera.model.cx;
-    return p.z() > 0 && p.z() < 40 && u >= 0 && u < camera.model.width &&
-           hits[scan][vehicle] >= fewest_points;
-  }
-  // In how many scans a vehicle is in view while `holds(vehicle, t)`.
-  template <typename Condition>
-  [[nodiscard]] int num_scans(int vehicle, const Condition& holds) const {
-    int count = 0;
-    for (std::size_t i = 0; i < stamps.size(); ++i) {
-      count += in_view(vehicle, i) && holds(vehicle, time_of(stamps[i])) ? 1 : 0;
-    }
-    return count;
-  }
-  // How many vehicles do so in at least so many scans.
-  template <typename Condition>
-  [[nodiscard]] int num_vehicles_that(int fewest_scans, const Condition& holds) const {
-    int count = 0;
-    for (int v = 0; v < num_vehicles(); ++v) count += num_scans(v, holds) >= fewest_scans ? 1 : 0;
-    return count;
-  }
-};
 
 class ScenarioSet : public testing::TestWithParam<const char*> {};
 
 TEST_P(ScenarioSet, is_short_and_shows_what_moves_within_40_metres) {
-  const Shipped shipped(GetParam(), 2);
-  EXPECT_GE(shipped.num_scans_in_all, 15);
-  EXPECT_LE(shipped.num_scans_in_all, 26);
-  EXPECT_EQ(shipped.scenario.cameras[0].rate_hz, 3 * shipped.scenario.lidar.rate_hz);
-  const auto moves = [&](int v, double t) { return shipped.vehicle_at(v, t).speed > 0.3; };
-  EXPECT_GE(shipped.num_vehicles_that(3, moves), 2);
+  for (const std::uint32_t seed : {0U, 4U}) {
+    const Shipped shipped(GetParam(), seed, 2);
+    EXPECT_GE(shipped.num_scans_in_all, 15);
+    EXPECT_LE(shipped.num_scans_in_all, 26);
+    EXPECT_EQ(shipped.scenario.cameras[0].rate_hz, 3 * shipped.scenario.lidar.rate_hz);
+    const auto moves = [&](int v, double t) { return shipped.vehicle_at(v, t).speed > 0.3; };
+    EXPECT_GE(shipped.num_vehicles_that(3, moves), 2) << seed;
+  }
   std::ifstream file(SCENARIO_FOLDER "/" + std::string(GetParam()) + ".ini");
   std::string first_line;
   std::getline(file, first_line);
@@ -91,8 +37,11 @@ INSTANTIATE_TEST_SUITE_P(all, ScenarioSet,
                                          "sparse_16", "depth_camera"),
                          [](const auto& name) { return std::string(name.param); });
 
-TEST(QueueScenario, many_creep_and_some_stand_close_together) {
-  const Shipped queue("queue");
+/// A promise that each seed has to keep.
+class Promise : public testing::TestWithParam<std::uint32_t> {};
+
+TEST_P(Promise, queue_many_creep_and_some_stand_close_together) {
+  const Shipped queue("queue", GetParam());
   const auto creeps = [&](int v, double t) {
     const double speed = queue.vehicle_at(v, t).speed;
     return speed > 0.3 && speed < 3.5;
@@ -100,6 +49,8 @@ TEST(QueueScenario, many_creep_and_some_stand_close_together) {
   const auto stands = [&](int v, double t) { return queue.vehicle_at(v, t).speed == 0; };
   EXPECT_GE(queue.num_vehicles_that(10, creeps), 5);
   EXPECT_GE(queue.num_vehicles_that(10, stands), 1);
+  // Cars that are drawn are a bit longer or shorter.
+  const double close_m = GetParam() == 0 ? 2 : 2.5;
   int close = 0;
   for (int a = 0; a < queue.num_vehicles(); ++a) {
     for (int b = 0; b < queue.num_vehicles(); ++b) {
@@ -108,14 +59,14 @@ TEST(QueueScenario, many_creep_and_some_stand_close_together) {
       };
       const MotionState behind = queue.vehicle_at(a, 1), ahead = queue.vehicle_at(b, 1);
       const double gap = ahead.x - behind.x - 0.5 * (length(a) + length(b));
-      close += std::abs(ahead.y - behind.y) < 1 && gap > 0 && gap < 2 ? 1 : 0;
+      close += std::abs(ahead.y - behind.y) < 1 && gap > 0 && gap < close_m ? 1 : 0;
     }
   }
   EXPECT_GE(close, 4);
 }
 
-TEST(OncomingScenario, traffic_closes_in_at_30_metres_a_second) {
-  const Shipped oncoming("oncoming");
+TEST_P(Promise, oncoming_traffic_closes_in_at_30_metres_a_second) {
+  const Shipped oncoming("oncoming", GetParam());
   const auto closes_in = [&](int v, double t) {
     const MotionState ego = state_at(oncoming.world.ego.motion, t);
     return (ego.velocity() - oncoming.vehicle_at(v, t).velocity()).x() >= 28 &&
@@ -124,8 +75,8 @@ TEST(OncomingScenario, traffic_closes_in_at_30_metres_a_second) {
   EXPECT_GE(oncoming.num_vehicles_that(5, closes_in), 3);
 }
 
-TEST(BrakingScenario, vehicles_in_view_brake_hard) {
-  const Shipped braking("braking");
+TEST_P(Promise, braking_vehicles_in_view_brake_hard) {
+  const Shipped braking("braking", GetParam());
   const auto brakes = [&](int v, double t) {
     return braking.vehicle_at(v, t).speed - braking.vehicle_at(v, t + 0.1).speed > 0.3;
   };
@@ -134,16 +85,17 @@ TEST(BrakingScenario, vehicles_in_view_brake_hard) {
   EXPECT_GT(state_at(ego, 1).speed - state_at(ego, 2).speed, 3);
 }
 
-TEST(TurningScenario, vehicles_in_view_turn_to_both_sides) {
-  const Shipped turning("turning");
+TEST_P(Promise, turning_vehicles_in_view_turn_to_both_sides) {
+  const Shipped turning("turning", GetParam());
   const auto left = [&](int v, double t) { return turning.vehicle_at(v, t).yaw_rate > 0.6; };
   const auto right = [&](int v, double t) { return turning.vehicle_at(v, t).yaw_rate < -0.6; };
   EXPECT_GE(turning.num_vehicles_that(10, left), 1);
   EXPECT_GE(turning.num_vehicles_that(5, right), 2);
 }
 
-TEST(FirstSeenScenario, scans_show_something_that_none_before_has_shown) {
-  const Shipped first_seen("first_seen");
+TEST_P(Promise, first_seen_scans_show_something_that_none_before_has_shown) {
+  const Shipped first_seen("first_seen", GetParam());
+  const bool is_drawn = GetParam() != 0;
   std::set<std::size_t> moments;
   for (int v = 0; v < first_seen.num_vehicles(); ++v) {
     std::size_t i = 0;
@@ -151,13 +103,16 @@ TEST(FirstSeenScenario, scans_show_something_that_none_before_has_shown) {
     while (i < first_seen.hits.size() && first_seen.hits[i][v] < 5) ++i;
     const bool moves = first_seen.vehicle_at(v, 0).speed > 1;
     const bool leaves_time = i + 1 < first_seen.hits.size();
-    if (i > 0 && moves && leaves_time && first_seen.in_view(v, i, 30)) moments.insert(i);
+    // As written it comes out far enough at once; where a seed lets it, with the next scan.
+    const bool is_clear = first_seen.in_view(v, i, 30) ||
+                          (is_drawn && leaves_time && first_seen.in_view(v, i + 1, 30));
+    if (i > 0 && moves && leaves_time && is_clear) moments.insert(i);
   }
-  EXPECT_GE(moments.size(), 4U);
+  EXPECT_GE(moments.size(), is_drawn ? 3U : 4U);
 }
 
-TEST(OcclusionScenario, vehicles_vanish_within_the_view_and_come_back) {
-  const Shipped occlusion("occlusion");
+TEST_P(Promise, occlusion_vehicles_vanish_within_the_view_and_come_back) {
+  const Shipped occlusion("occlusion", GetParam());
   int vanishing = 0;
   for (int v = 0; v < occlusion.num_vehicles(); ++v) {
     int before = 0, hidden = 0, after = 0;
@@ -171,8 +126,8 @@ TEST(OcclusionScenario, vehicles_vanish_within_the_view_and_come_back) {
   EXPECT_GE(vanishing, 2);
 }
 
-TEST(LowTextureScenario, the_picture_is_dark_flat_and_noisy) {
-  Shipped night("low_texture");
+TEST_P(Promise, low_texture_the_picture_is_dark_flat_and_noisy) {
+  Shipped night("low_texture", GetParam());
   CameraSpec small = night.scenario.cameras[0];
   EXPECT_GE(small.noise, 4);
   CameraModel& model = small.camera.model;
@@ -194,8 +149,8 @@ TEST(LowTextureScenario, the_picture_is_dark_flat_and_noisy) {
   for (const Object& object : night.world.objects) ASSERT_LT(object.grain, 0.3F);
 }
 
-TEST(StandingEgoScenario, only_the_others_move) {
-  const Shipped standing("standing_ego");
+TEST_P(Promise, standing_ego_only_the_others_move) {
+  const Shipped standing("standing_ego", GetParam());
   const Pose at_start = standing.world.T_world_vehicle(0);
   for (const Stamp stamp : standing.stamps) {
     EXPECT_EQ(standing.world.T_world_vehicle(time_of(stamp)).matrix(), at_start.matrix());
@@ -204,8 +159,8 @@ TEST(StandingEgoScenario, only_the_others_move) {
   EXPECT_GE(standing.num_vehicles_that(10, drives), 4);
 }
 
-TEST(RotatingEgoScenario, the_ego_turns_and_hardly_gets_on) {
-  const Shipped rotating("rotating_ego");
+TEST_P(Promise, rotating_ego_the_ego_turns_and_hardly_gets_on) {
+  const Shipped rotating("rotating_ego", GetParam());
   const MotionProfile& ego = rotating.world.ego.motion;
   double turned = 0;
   for (const Stamp stamp : rotating.stamps) {
@@ -216,15 +171,15 @@ TEST(RotatingEgoScenario, the_ego_turns_and_hardly_gets_on) {
   EXPECT_LT(late.speed / late.yaw_rate, 0.3);  // the radius of its curve, at last
 }
 
-TEST(Sparse16Scenario, there_are_16_rings) {
-  const Shipped sparse("sparse_16");
+TEST_P(Promise, sparse_16_there_are_16_rings) {
+  const Shipped sparse("sparse_16", GetParam());
   const LidarScan scan = scan_at(sparse.world, sparse.scenario.lidar, start_stamp(), 1).scan;
   EXPECT_EQ(scan.num_rings, 16);
   EXPECT_EQ(std::set<int>(scan.ring.begin(), scan.ring.end()).size(), 16U);
 }
 
-TEST(DepthCameraScenario, the_view_is_narrow_short_and_dense) {
-  const Shipped depth("depth_camera");
+TEST_P(Promise, depth_camera_the_view_is_narrow_short_and_dense) {
+  const Shipped depth("depth_camera", GetParam());
   const LidarSpec& spec = depth.scenario.lidar;
   ASSERT_TRUE(spec.depth_camera);
   EXPECT_GT(spec.noise_per_m2, 0);
@@ -235,6 +190,8 @@ TEST(DepthCameraScenario, the_view_is_narrow_short_and_dense) {
     ASSERT_LT(p.norm(), spec.max_range_m + 1);
   }
 }
+
+INSTANTIATE_TEST_SUITE_P(as_written_and_drawn, Promise, testing::Values(0U, 1U, 2U, 3U));
 
 }  // namespace
 }  // namespace lidar_upsampling::sim

@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <sstream>
 
 namespace {
 
@@ -75,6 +76,48 @@ TEST_F(SimulateTool, the_same_seed_gives_the_same_bytes) {
   EXPECT_EQ(contents(path("a.rawlog")), contents(path("b.rawlog")));
   EXPECT_EQ(contents(path("a_objects.csv")), contents(path("b_objects.csv")));
   EXPECT_NE(contents(path("a.rawlog")), contents(path("c.rawlog")));
+}
+
+TEST_F(SimulateTool, without_a_seed_the_situation_is_as_written_and_a_seed_draws_another) {
+  ASSERT_EQ(simulate(small_, "--duration 0 --output " + path("w.rawlog")).status, 0);
+  // The scenario's own seed, given on the command line, draws like any other.
+  ASSERT_EQ(simulate(small_, "--duration 0 --seed 3 --output " + path("d.rawlog")).status, 0);
+  const std::string written = contents(path("w_objects.csv"));
+  // The lead is where the INI has it.
+  EXPECT_NE(written.find(",car,14.000000,-5.100000,"), std::string::npos) << written;
+  EXPECT_NE(written.find(",10.000000,0.000000,0.000000,0.000000,1"), std::string::npos) << written;
+  EXPECT_EQ(contents(path("d_objects.csv")).find(",14.000000,-5.100000,"), std::string::npos);
+  EXPECT_NE(run(std::string(RAWLOG_SIMULATE) + " --help").output.find("exactly as written"),
+            std::string::npos);
+}
+
+TEST_F(SimulateTool, a_real_rigs_log_has_told_stamps_and_mounting_and_the_truth_at_those_stamps) {
+  const auto exact = contents(small_);
+  std::ofstream(path("off.ini")) << exact << "\n[ego_poses]\nnoise_m = 0.05\nlag_ms = 10\n";
+  std::string jitter = exact;
+  jitter.replace(jitter.find("[camera.CAM0]"), 13,
+                 "[camera.CAM0]\ntime_jitter_ms = 2\ncalibration_error_deg = 0.5");
+  std::ofstream(path("jitter.ini")) << jitter;
+  for (const char* const name : {"off", "jitter"}) {
+    const auto made = simulate(path(name + std::string(".ini")),
+                               "--duration 0.1 --output " + path(name + std::string(".rawlog")));
+    ASSERT_EQ(made.status, 0) << made.output;
+  }
+  ASSERT_EQ(simulate(small_, "--duration 0.1 --output " + path("exact.rawlog")).status, 0);
+  // The ego's truth has nothing to do with what the log tells of it.
+  EXPECT_EQ(contents(path("off_ego.csv")), contents(path("exact_ego.csv")));
+  EXPECT_NE(contents(path("off.rawlog")), contents(path("exact.rawlog")));
+  // Two scans and four pictures, three of them at stamps of their own.
+  const std::string at_told_stamps = contents(path("jitter_ego.csv"));
+  EXPECT_GE(std::count(at_told_stamps.begin(), at_told_stamps.end(), '\n'), 5);
+  EXPECT_NE(at_told_stamps, contents(path("exact_ego.csv")));
+  std::istringstream boxes(contents(path("jitter_boxes.csv")));
+  std::string row;
+  std::getline(boxes, row);
+  while (std::getline(boxes, row)) {
+    const auto from = row.find(',') + 1;
+    EXPECT_NE(at_told_stamps.find(row.substr(from, row.find(',', from) - from)), std::string::npos);
+  }
 }
 
 TEST_F(SimulateTool, frames_hold_the_images_and_scans_where_frames_are_asked_for) {

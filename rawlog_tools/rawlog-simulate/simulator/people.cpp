@@ -43,7 +43,7 @@ void add_bicycle(Object& object, const Vector3f& paint) {
   for (const double axle : {s.front_axle, s.rear_axle}) {
     Profile circle;
     for (int i = 0; i < 18; ++i) {
-      const double angle = M_PI * i / 9;
+      const double angle = M_PI * (i / 9. - 0.5);
       circle.emplace_back(axle + s.wheel_radius * std::cos(angle),
                           s.wheel_radius * (1 + std::sin(angle)));
     }
