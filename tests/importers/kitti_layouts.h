@@ -20,6 +20,9 @@ struct KittiPoints {
 [[nodiscard]] Stamp drive_picture_stamp(int frame);
 [[nodiscard]] Stamp drive_oxts_stamp(int frame);
 
+/// Of camera 0 as rectified; in the odometry layout, as it is.
+[[nodiscard]] Pose T_camera_0_lidar(const SmallStreet& street);
+
 /// The reader's world begins where OXTS does.
 [[nodiscard]] Pose T_drive_world(const SmallStreet& street);
 

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the lidar_upsampling authors
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "small_street.h"
+
+namespace lidar_upsampling {
+
+/// The street as a scene in the DGP layout, with one camera CAMERA_01 whose pictures are taken
+/// 10 ms after the scans. Every scan labels all of the street's objects.
+struct DgpScene {
+  explicit DgpScene(const std::filesystem::path& folder);
+
+  SmallStreet street;
+  std::filesystem::path folder, scene_file;
+  nlohmann::json scene;  ///< what is in the file
+
+  void write_scene() const;
+  /// Files of frame i.
+  [[nodiscard]] std::filesystem::path sweep(int frame) const;
+  [[nodiscard]] std::filesystem::path labels(int frame) const;
+};
+
+[[nodiscard]] Stamp dgp_picture_stamp(int frame);
+
+/// @brief Writes a .npz of one array of rows x, y, z, intensity as numpy.savez does, or packed as
+/// numpy.savez_compressed.
+void write_npz(const std::filesystem::path& file, const LidarScan& scan, bool packed);
+
+}  // namespace lidar_upsampling
