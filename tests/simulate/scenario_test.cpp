@@ -80,6 +80,26 @@ TEST(Scenario, a_depth_camera_has_a_picture_in_place_of_rings) {
   EXPECT_NE(refusal("[lidar]\nwidth = 64\n").find("[lidar] width"), std::string::npos);
 }
 
+TEST(Scenario, errors_of_the_rig_are_read_in_their_units_and_are_none_unless_given) {
+  const Scenario scenario = parsed(
+      "[camera.A]\ntime_jitter_ms = 2\ncalibration_error_deg = 90\ncalibration_error_m = 0.02\n"
+      "[camera.B]\n[ego_poses]\nnoise_m = 0.03\nnoise_deg = 90\nlag_ms = 10\n");
+  EXPECT_NEAR(scenario.cameras[0].time_jitter_s, 0.002, 1e-12);
+  EXPECT_NEAR(scenario.cameras[0].calibration_error_rad, M_PI / 2, 1e-12);
+  EXPECT_EQ(scenario.cameras[0].calibration_error_m, 0.02);
+  const CameraSpec& exact = scenario.cameras[1];
+  EXPECT_EQ(exact.time_jitter_s + exact.calibration_error_rad + exact.calibration_error_m, 0);
+  EXPECT_EQ(scenario.ego_poses.noise_m, 0.03);
+  EXPECT_NEAR(scenario.ego_poses.noise_rad, M_PI / 2, 1e-12);
+  EXPECT_NEAR(scenario.ego_poses.lag_s, 0.01, 1e-12);
+  EXPECT_NE(refusal("[ego_poses]\nkind = odometry\nnoise_m = 1\n").find("[ego_poses] noise_m"),
+            std::string::npos);
+  EXPECT_NE(refusal("[ego_poses]\nkind = gnss\nnoise_deg = 1\n").find("[ego_poses] noise_deg"),
+            std::string::npos);
+  EXPECT_NE(refusal("[variation]\nspeed_share = 2\n").find("[variation] speed_share is 2"),
+            std::string::npos);
+}
+
 TEST(Scenario, nothing_given_is_a_64_beam_scanner_and_one_camera) {
   const Scenario scenario = parsed("");
   EXPECT_EQ(scenario.lidar.elevations.size(), 64U);

@@ -11,8 +11,8 @@ namespace lidar_upsampling::sim {
 /// drawn within the scenario's `variation`. The same seed draws the same.
 ///
 /// Nobody touches another or the ego before the scenario's end: what would is drawn again, ever
-/// closer to what is written, and stays as written in the end. Who stands for good and stands, and
-/// only what parks or waits in the street of its own accord makes way (Scenario::cleared_s).
+/// closer to what is written, and stays as written in the end. Vehicles that stand stay standing,
+/// and what of the street's own is in somebody's way is left out (Scenario::cleared_s).
 [[nodiscard]] Scenario drawn(const Scenario& written, std::uint32_t seed);
 
 }  // namespace lidar_upsampling::sim
