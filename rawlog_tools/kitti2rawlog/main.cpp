@@ -100,8 +100,10 @@ void add_options(CLI::App& app, Options& options) {
       ->check(CLI::ExistingFile);
   app.add_option("--boxes", options.labels.boxes, "Detections CSV to make from the labels")
       ->excludes(sequence);
-  app.add_option("--truth-objects", options.labels.truth_objects,
-                 "Truth table ..._objects.csv to make from them, ..._ego.csv beside")
+  app.add_option(
+         "--truth-objects", options.labels.truth_objects,
+         "Truth table ..._objects.csv to make from them; beside it ..._ego.csv and, where labels "
+         "have areas that nobody labelled, ..._ignored.csv")
       ->excludes(sequence);
   app.add_flag("--overwrite", options.overwrite, "Replace existing outputs");
 }
