@@ -29,6 +29,9 @@ void append(LogResult& total, LogResult log) {
   total.has_truth = total.has_truth && log.has_truth;
   total.num_virtual += log.num_virtual;
   total.num_unmatched += log.num_unmatched;
+  total.num_unlabelled += log.num_unlabelled;
+  for (const Row row : kRows)
+    if (total.labels[row] && log.labels[row]) append(*total.labels[row], *log.labels[row]);
   for (const std::string& note : log.notes) total.notes.push_back(log.input + ": " + note);
   std::move(log.scans.begin(), log.scans.end(), std::back_inserter(total.scans));
 }

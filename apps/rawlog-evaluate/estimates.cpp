@@ -11,17 +11,9 @@ namespace lidar_upsampling {
 namespace {
 
 Pose constant_velocity(const ObjectReference& object, const RowSources& sources) {
-  const ScanSet& scans = sources.scans;
-  if (!sources.previous || !scans.T_previous_key) return sources.T_ego;
-  const Pose& T_previous_key = *scans.T_previous_key;
-  const auto found = register_object(points_at(scans.key, object.points), *sources.previous,
-                                     {T_previous_key, Pose::Identity()});
-  if (found.status != RegistrationStatus::reliable) return sources.T_ego;
-  // Back over ground from the key scan to the one before it, both in the frame of the key scan.
-  const Pose T_back = T_previous_key.inverse() * found.T_target_object;
-  const double share = seconds_between(scans.key.stamp, scans.virtual_scan.stamp) /
-                       seconds_between(scans.previous->stamp, scans.key.stamp);
-  return sources.T_ego * exp_se3(Twist(-share * log_se3(T_back)));
+  if (!object.last_motion) return sources.T_ego;
+  const double dt = seconds_between(sources.scans.key.stamp, sources.scans.virtual_scan.stamp);
+  return sources.T_ego * exp_se3(Twist(dt * object.last_motion->per_second));
 }
 
 std::optional<Pose> recovered(const ObjectReference& object, const RowSources& sources,
@@ -41,10 +33,8 @@ MovedScan prepare_moved_scan(const LidarScan& key, const LidarScan& virtual_scan
 }
 
 RowSources prepare_rows(const ScanSet& scans, const Pose& T_ego) {
-  RowSources sources{scans, T_ego, prepare_moved_scan(scans.key, scans.virtual_scan), std::nullopt,
-                     std::nullopt};
+  RowSources sources{scans, T_ego, prepare_moved_scan(scans.key, scans.virtual_scan), std::nullopt};
   if (scans.paper) sources.paper = prepare_moved_scan(scans.key, *scans.paper);
-  if (scans.previous) sources.previous = Surface(without_ground(*scans.previous));
   return sources;
 }
 

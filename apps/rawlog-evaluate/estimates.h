@@ -24,7 +24,6 @@ struct RowSources {
   Pose T_ego;
   MovedScan ours;
   std::optional<MovedScan> paper;
-  std::optional<Surface> previous;  ///< the previous scan off the ground
 };
 
 [[nodiscard]] RowSources prepare_rows(const ScanSet& scans, const Pose& T_ego);

@@ -4,72 +4,36 @@
 #include <mrpt/obs/CSensoryFrame.h>
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <utility>
 
-#include "evaluation.h"
+#include "instant_reference.h"
+#include "key_objects.h"
 #include "lidar_upsampling/front_end/pose_input.h"
 #include "lidar_upsampling/io/carriers.h"
 #include "lidar_upsampling/io/images.h"
-#include "lidar_upsampling/io/log_index.h"
 #include "lidar_upsampling/io/sensory_frame.h"
+#include "lidar_upsampling/objects/ground.h"
 #include "lidar_upsampling/registration/scan_registration.h"
-#include "lidar_upsampling/se3.h"
+#include "log_streams.h"
 #include "rawlog-densify/densification.h"
-#include "scan_feed.h"
 
 namespace lidar_upsampling {
 
 namespace {
 
-const std::string kEnding = "_VIRTUAL";
+// A virtual scan this near to a real one that the log still holds has nothing withheld to be judged
+// by labels: people's labels are those of the scans.
+constexpr double kAtRealScan_s = 0.015;
 
-bool is_virtual(const std::string& label) {
-  return label.size() > kEnding.size() &&
-         label.compare(label.size() - kEnding.size(), kEnding.size(), kEnding) == 0;
-}
-
-/// The LiDAR whose virtual scans the log holds.
-std::string find_label(const LogIndex& input, const std::string& wanted) {
-  for (const StreamInfo* stream : input.of_kind(StreamKind::lidar)) {
-    if (!is_virtual(stream->label)) continue;
-    std::string real = stream->label.substr(0, stream->label.size() - kEnding.size());
-    if (wanted.empty() || wanted == real) return real;
-  }
-  throw std::runtime_error(input.path + ": holds no virtual scans (label " +
-                           (wanted.empty() ? "..." : wanted) + kEnding +
-                           "); densify it with rawlog-densify. It holds " + labels_of(input));
-}
-
-const StreamInfo& reference_stream(const LogIndex& reference, const std::string& label) {
-  if (const StreamInfo* same = reference.find(label, StreamKind::lidar)) return *same;
-  const auto lidars = reference.of_kind(StreamKind::lidar);
-  if (lidars.size() == 1) return *lidars.front();
-  throw std::runtime_error(reference.path + ": holds no LiDAR scans with label " + label +
-                           ". It holds " + labels_of(reference));
-}
-
-std::vector<Camera> calibrated_cameras(const LogIndex& index) {
-  std::vector<Camera> cameras;
-  for (const StreamInfo* stream : index.of_kind(StreamKind::camera))
-    if (stream->calibrated()) cameras.push_back(*stream->camera);
-  return cameras;
-}
-
-LogIndex whole_index(const std::string& path) {
-  LogIndex index = index_log(path);
-  if (index.corruption) throw std::runtime_error(*index.corruption);
-  return index;
-}
-
-/// The log as it was before it was densified.
-LogIndex without_virtual(LogIndex index, const std::string& virtual_label) {
-  auto& streams = index.streams;
-  streams.erase(std::remove_if(streams.begin(), streams.end(),
-                               [&](const StreamInfo& s) { return s.label == virtual_label; }),
-                streams.end());
-  return index;
-}
+/// A key scan and all that is judged once for it.
+struct KeyScan {
+  LidarScan scan;
+  std::vector<ObjectReference> objects;   ///< with their last motions
+  std::vector<ObjectReference> clusters;  ///< the same without a truth, else the clusters' own
+  std::optional<RegisteredMotions> motions;
+};
 
 /// Goes once through the densified log. The `paper` row's run is fed alongside, so that its virtual
 /// scans come up when ours do.
@@ -80,8 +44,13 @@ class Walk {
       : job_(job),
         result_(result),
         cameras_(calibrated_cameras(input)),
+        real_stamps_(input.find(result.label, StreamKind::lidar)->stamps),
         references_(job.reference, reference_stream(reference, result.label).label,
-                    reference_stream(reference, result.label).stamps, job.tolerance_s) {
+                    reference_stream(reference, result.label).stamps, real_stamps_,
+                    job.tolerance_s) {
+    std::sort(real_stamps_.begin(), real_stamps_.end());
+    if (references_.none_withheld())
+      result_.notes.emplace_back("no scan was withheld: judged by real scans that the log holds");
     if (!job.truth_objects.empty()) truth_ = load_truth(job.truth_objects);
     if (!job.paper_row) return;
     try {
@@ -110,6 +79,7 @@ class Walk {
   void finish() {
     if (paper_) take(paper_->flush());
     judge_waiting();
+    if (truth_) judge_by_labels();
   }
 
  private:
@@ -131,17 +101,33 @@ class Walk {
 
   void take_key(LidarScan scan) {
     if (scan.points.empty()) return;
-    previous_ = std::exchange(key_, std::move(scan));
-    T_previous_key_.reset();
-    if (!previous_) return;
+    const auto previous = std::exchange(key_, std::make_unique<KeyScan>());
+    key_->scan = std::move(scan);
+    const LidarScan& key = key_->scan;
+    key_->objects = truth_ ? objects_by_truth(key, *truth_, job_.options.min_points_truth)
+                           : objects_by_clusters(key);
+    if (truth_) key_->clusters = objects_by_clusters(key);
+    if (previous) find_last_motions(previous->scan);
+    if (!truth_) key_->clusters = key_->objects;
+    key_->motions.emplace(key, key_->objects, job_.options);
+  }
+
+  void find_last_motions(const LidarScan& previous) {
+    const LidarScan& key = key_->scan;
+    const double dt = seconds_between(previous.stamp, key.stamp);
+    if (!(dt > 0)) return;
+    std::optional<Pose> T_previous_key;
     if (truth_) {
-      if (const auto T = true_ego_motion(*truth_, *previous_, key_->stamp))
-        T_previous_key_ = T->inverse();
-      return;
+      if (const auto T = true_ego_motion(*truth_, previous, key.stamp))
+        T_previous_key = T->inverse();
+    } else if (const auto found =
+                   register_scans(key.points, previous.points, exp_se3(Twist(-dt * ego_rate_)))) {
+      T_previous_key = found->T_target_source;
     }
-    const Pose guess = exp_se3(Twist(-ego_rate_ * seconds_between(previous_->stamp, key_->stamp)));
-    if (const auto found = register_scans(key_->points, previous_->points, guess))
-      T_previous_key_ = found->T_target_source;
+    if (!T_previous_key) return;
+    const Surface surface(without_ground(previous));
+    for (auto* objects : {&key_->objects, &key_->clusters})
+      lidar_upsampling::find_last_motions(*objects, key, surface, *T_previous_key, dt);
   }
 
   [[nodiscard]] const LidarScan* paper_at(Stamp stamp) const {
@@ -154,47 +140,90 @@ class Walk {
   void judge_waiting() {
     for (Waiting& waiting : ours_) {
       const LidarScan* paper = paper_at(waiting.scan.stamp);
+      const Stamp told_at = waiting.scan.stamp;
       // The instant that the scan is of, where the settings tell that the images' stamps lie
       // beside.
       waiting.scan.stamp =
           shifted(waiting.scan.stamp, -1e-3 * job_.paper.config.timing.camera_time_offset_ms);
+      if (truth_ && key_) note_labels(waiting.scan.stamp, told_at);
       judge(waiting.scan, paper, waiting.pictures);
     }
     ours_.clear();
     papers_.clear();
   }
 
+  [[nodiscard]] bool at_real_scan(Stamp stamp) const {
+    const auto near = [&](auto real) {
+      return real != real_stamps_.end() && std::abs(seconds_between(*real, stamp)) < kAtRealScan_s;
+    };
+    const auto next = std::lower_bound(real_stamps_.begin(), real_stamps_.end(), stamp);
+    return near(next) || (next != real_stamps_.begin() && near(std::prev(next)));
+  }
+
+  void note_labels(Stamp stamp, Stamp told_at) {
+    std::optional<LabelledInstant> instant;
+    if (!at_real_scan(stamp))
+      instant = labelled_instant(*truth_, key_->scan, stamp, cameras_, job_.options.labels);
+    if (!instant) {
+      ++result_.num_unlabelled;
+      return;
+    }
+    instant->told_at = told_at.time_since_epoch().count();
+    const auto rows = constant_velocity_rows(key_->clusters, instant->T_lidar_k_lidar_t.inverse(),
+                                             instant->dt, instant->told_at, job_.options.moving);
+    constant_velocity_.insert(constant_velocity_.end(), rows.begin(), rows.end());
+    instants_.push_back(std::move(*instant));
+  }
+
+  void judge_by_labels() {
+    const auto judge = [this](Row row, const std::vector<ReportedObject>& told) {
+      result_.labels[row] = score_labels(instants_, told, job_.options.labels);
+    };
+    judge(Row::ego, {});
+    judge(Row::constant_velocity, constant_velocity_);
+    if (paper_) judge(Row::paper, reported_objects(to_json(paper_report_)));
+    if (job_.report != nullptr) judge(Row::ours, job_.report->objects);
+  }
+
   void judge(const LidarScan& scan, const LidarScan* paper, const Pictured& pictures) {
-    const LidarScan* match = key_ ? references_.nearest(scan.stamp) : nullptr;
-    const double dt = match ? seconds_between(key_->stamp, scan.stamp) : 0;
-    if (!match || !(dt > 0) || !(match->stamp > key_->stamp)) {
+    const double dt = key_ ? seconds_between(key_->scan.stamp, scan.stamp) : 0;
+    std::optional<InstantReference> reference;
+    if (dt > 0) reference = reference_at(scan.stamp);
+    if (!reference) {
       ++result_.num_unmatched;
       return;
     }
-    std::optional<LidarScan> timed;
-    if (truth_ && match->stamp != scan.stamp) timed = brought_to(*truth_, *match, scan.stamp);
-    ScanSet scans{*key_, scan, timed ? *timed : *match, nullptr, T_previous_key_, paper};
-    if (previous_ && T_previous_key_) scans.previous = &*previous_;
-    Pose T_ego = exp_se3(Twist(ego_rate_ * dt));
-    result_.scans.push_back(
-        evaluate_scan(scans, truth_ ? &*truth_ : nullptr, cameras_, T_ego, job_.options, &T_ego));
-    ego_rate_ = log_se3(T_ego) / dt;
+    ego_rate_ = log_se3(reference->T_ego) / dt;
+    keep_in_scope(*reference, key_->scan, cameras_, job_.options);
+    const LidarScan real = std::move(reference->scan);
+    const ScanSet scans{key_->scan, scan, real, paper};
+    result_.scans.push_back(evaluate_scan(scans, std::move(*reference), cameras_, job_.options));
     if (job_.on_scan) job_.on_scan(scans, result_.scans.back(), pictures);
+  }
+
+  std::optional<InstantReference> reference_at(Stamp stamp) {
+    const auto around = references_.around(stamp, key_->scan.stamp);
+    if (!around) return {};
+    if (truth_) return reference_by_truth(*truth_, key_->scan, key_->objects, *around, stamp);
+    return reference_by_registration(*key_->motions, key_->scan, key_->objects, *around, stamp,
+                                     ego_rate_);
   }
 
   const EvaluationJob& job_;
   LogResult& result_;
   std::vector<Camera> cameras_;
+  std::vector<Stamp> real_stamps_;
   ReferenceScans references_;
   std::optional<Truth> truth_;
   DensifyReport paper_report_;
   std::optional<Densification> paper_;
-  std::optional<LidarScan> previous_, key_;
-  std::optional<Pose> T_previous_key_;
+  std::unique_ptr<KeyScan> key_;
   std::vector<Waiting> ours_;
   std::vector<LidarScan> papers_;
   Pictured pictures_;
   Twist ego_rate_ = Twist::Zero();  ///< per second, of the last ego-motion: the next one's guess
+  std::vector<LabelledInstant> instants_;
+  std::vector<ReportedObject> constant_velocity_;
 };
 
 void feed_entry(const RawlogEntry& entry, Walk& walk) {
@@ -216,7 +245,8 @@ LogResult evaluate_log(const EvaluationJob& job, const std::function<void(double
   result.input = job.input;
   result.reference = job.reference;
   result.label = find_label(input, job.label);
-  result.virtual_label = result.label + kEnding;
+  result.virtual_label = result.label + kVirtualEnding;
+  result.tolerance_s = job.tolerance_s;
   result.has_truth = !job.truth_objects.empty();
   if (job.options.protocol) result.protocol = job.options.protocol->name;
   Walk walk(job, input, reference, result);

@@ -5,7 +5,7 @@
 #include "clouds.h"
 #include "estimates.h"
 #include "evaluation.h"
-#include "lidar_upsampling/registration/scan_registration.h"
+#include "instant_reference.h"
 
 namespace lidar_upsampling {
 
@@ -123,33 +123,22 @@ void measure_flow(const RowSources& sources, double max_range, ScanResult& resul
   }
 }
 
-std::optional<Pose> reference_ego_motion(const ScanSet& scans, const Truth* truth,
-                                         const Pose& guess) {
-  if (truth) return true_ego_motion(*truth, scans.key, scans.virtual_scan.stamp);
-  const auto found = register_scans(scans.key.points, scans.reference.points, guess);
-  return found ? std::make_optional(found->T_target_source) : std::nullopt;
-}
-
 }  // namespace
 
-ScanResult evaluate_scan(const ScanSet& scans, const Truth* truth,
-                         const std::vector<Camera>& cameras, const Pose& T_ego_guess,
-                         const EvaluationOptions& options, Pose* T_ego_found) {
+ScanResult evaluate_scan(const ScanSet& scans, InstantReference reference,
+                         const std::vector<Camera>& cameras, const EvaluationOptions& options) {
   ScanResult result;
   result.stamp = scans.virtual_scan.stamp;
   result.key_stamp = scans.key.stamp;
   result.dt = seconds_between(scans.key.stamp, scans.virtual_scan.stamp);
-  const auto T_ego = reference_ego_motion(scans, truth, T_ego_guess);
-  result.ego_found = T_ego.has_value();
-  if (!T_ego) return result;
-  *T_ego_found = *T_ego;
+  result.ego_found = true;
+  result.interpolated = reference.interpolated;
 
-  const RowSources sources = prepare_rows(scans, *T_ego);
+  const RowSources sources = prepare_rows(scans, reference.T_ego);
   result.points_told = !sources.ours.matches.empty();
-  result.objects = evaluate_objects(find_references(scans, truth, *T_ego, cameras, options),
-                                    sources, cameras, result.dt);
+  result.objects = evaluate_objects(std::move(reference.objects), sources, cameras, result.dt);
   measure_moving_points(sources, result);
-  if (truth) measure_flow(sources, options.max_range_m, result);
+  if (reference.by_truth) measure_flow(sources, options.max_range_m, result);
   const PerRow<Points> clouds = whole_clouds(sources, result.objects);
   measure_clouds(clouds, scans.reference, cameras, result);
   measure_samples(clouds, scans, cameras, options, result);

@@ -8,10 +8,12 @@
 #include <string>
 #include <vector>
 
+#include "label_score.h"
 #include "lidar_upsampling/metrics/chamfer.h"
 #include "lidar_upsampling/metrics/emd.h"
 #include "lidar_upsampling/metrics/object_error.h"
 #include "lidar_upsampling/metrics/scene_flow.h"
+#include "lidar_upsampling/se3.h"
 #include "lidar_upsampling/types.h"
 #include "protocol.h"
 #include "rawlog-densify/densify.h"
@@ -29,22 +31,29 @@ struct EvaluationOptions {
   std::optional<Protocol> protocol;
   MovingOptions moving;
   ObjectRegistrationOptions registration;
+  LabelScoreOptions labels;
 };
 
 /// The scans at hand for one virtual scan.
 struct ScanSet {
   const LidarScan& key;
   const LidarScan& virtual_scan;
-  const LidarScan& reference;
-  const LidarScan* previous = nullptr;      ///< the real scan before the key scan
-  std::optional<Pose> T_previous_key = {};  ///< ego-motion between them, lidar frames
-  const LidarScan* paper = nullptr;         ///< the same virtual scan by preset=paper
+  const LidarScan& reference;        ///< a real one, brought to the virtual scan's instant
+  const LidarScan* paper = nullptr;  ///< the same virtual scan by preset=paper
+};
+
+/// An object's motion over ground between the last two real scans.
+struct LastMotion {
+  Twist per_second = Twist::Zero();  ///< in the lidar frame at the key scan
+  double dt = 0;                     ///< s, between these scans
+  double sigma_m = 0;                ///< of the step between them
 };
 
 /// An object of the key scan, and where it really went.
 struct ObjectReference {
   std::string id, class_name;
   std::vector<int> points;  ///< indices into the key scan
+  std::optional<LastMotion> last_motion;
   ReferenceMotion motion;
   bool moving = false;
   double speed = 0;      ///< m/s over ground
@@ -87,7 +96,8 @@ struct ScanResult {
   Stamp stamp, key_stamp;
   double dt = 0;
   bool ego_found = false;
-  bool points_told = false;  ///< one by one, by ring and column or order
+  bool interpolated = false;  ///< the reference, from scans of other instants
+  bool points_told = false;   ///< one by one, by ring and column or order
   std::vector<ObjectResult> objects;
   PerRow<std::optional<CloudResult>> clouds;
   PerRow<SampledResult> sampled;
@@ -105,7 +115,10 @@ struct LogResult {
   bool has_truth = false;
   int num_logs = 1;
   int num_virtual = 0;
-  int num_unmatched = 0;  ///< without a reference scan, or before the first key scan
+  int num_unmatched = 0;  ///< without a reference scan near, or before the first key scan
+  double tolerance_s = 0;
+  PerRow<std::optional<LabelScore>> labels;  ///< with labels, of the rows that tell of objects
+  int num_unlabelled = 0;  ///< beyond the labels, or at a real scan that the log still holds
   std::vector<std::string> notes;
   std::vector<ScanResult> scans;
 };
@@ -114,33 +127,28 @@ struct LogResult {
 /// their reference log, too.
 void append(LogResult& total, LogResult log);
 
-/// @brief Objects of the key scan with their reference motions: by clusters and registration to the
-/// reference scan, or by true boxes.
-/// @param truth may be null.
-[[nodiscard]] std::vector<ObjectReference> find_references(const ScanSet& scans, const Truth* truth,
-                                                           const Pose& T_ego,
-                                                           const std::vector<Camera>& cameras,
-                                                           const EvaluationOptions& options);
-
 /// Whether a point of a scan's lidar frame is seen by the camera, or by one of the cameras.
 [[nodiscard]] bool in_view(const Camera& camera, const LidarScan& scan,
                            const Eigen::Vector3d& point_in_lidar);
 [[nodiscard]] bool in_view(const std::vector<Camera>& cameras, const LidarScan& scan,
                            const Eigen::Vector3d& point_in_lidar);
 
-/// @param T_ego_guess where the registration for the ego-motion starts; unused with a truth.
-[[nodiscard]] ScanResult evaluate_scan(const ScanSet& scans, const Truth* truth,
-                                       const std::vector<Camera>& cameras, const Pose& T_ego_guess,
-                                       const EvaluationOptions& options, Pose* T_ego_found);
+struct InstantReference;
+
+/// @param reference of the virtual scan's instant.
+[[nodiscard]] ScanResult evaluate_scan(const ScanSet& scans, InstantReference reference,
+                                       const std::vector<Camera>& cameras,
+                                       const EvaluationOptions& options);
 
 /// The newest picture of each camera, by label.
 using Pictured = std::map<std::string, CameraImage>;
 
 struct EvaluationJob {
   std::string reference, input;
-  std::string label;          ///< empty: the one that has virtual scans
-  std::string truth_objects;  ///< empty: none
-  double tolerance_s = 0.015;
+  std::string label;                  ///< empty: the one that has virtual scans
+  std::string truth_objects;          ///< empty: none
+  double tolerance_s = 0.06;          ///< to the nearest withheld scan
+  const RunReport* report = nullptr;  ///< of the densification; null: row `ours` is not labelled
   bool paper_row = true;
   DensifyJob paper;  ///< settings of the `paper` row
   EvaluationOptions options;

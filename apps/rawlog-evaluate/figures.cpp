@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "label_table.h"
+
 namespace lidar_upsampling {
 
 namespace {
@@ -203,8 +205,18 @@ void count_left_out(const LogResult& result, Figures& figures) {
     }
 }
 
+void add_reference(const LogResult& result, Figures& figures) {
+  std::vector<double> moving, standing;
+  visit_objects(result, [&](const ScanResult&, const ObjectResult& object) {
+    (object.object.moving ? moving : standing).push_back(object.object.motion.sigma_m);
+  });
+  figures.reference_moving_m = summarize(std::move(moving));
+  figures.reference_standing_m = summarize(std::move(standing));
+  for (const ScanResult& scan : result.scans) figures.num_interpolated += scan.interpolated ? 1 : 0;
+}
+
 /// The baselines that a user could take instead.
-void find_beaten(Figures& figures) {
+void find_beaten(const LogResult& result, Figures& figures) {
   const auto compare = [&](const char* what, auto get) {
     const auto [ours, count] = get(figures.rows[Row::ours]);
     if (count == 0) return;
@@ -217,6 +229,18 @@ void find_beaten(Figures& figures) {
   using Value = std::pair<double, int>;
   const auto mean = [](const ErrorSummary& summary) { return Value{summary.mean, summary.count}; };
   const auto seeded = [](const SeededFigure& f) { return Value{f.mean, f.num_scans}; };
+  if (result.labels[Row::ours]) {
+    PerRow<LabelFigures> labels;
+    for (const Row row : kRows)
+      if (result.labels[row]) labels[row] = label_figures(*result.labels[row]);
+    for (const Row row : {Row::ego, Row::constant_velocity, Row::paper}) {
+      if (labels[row].movers_m.count == 0) continue;
+      if (labels[row].movers_m.mean < labels[Row::ours].movers_m.mean)
+        figures.beaten.push_back(std::string("labelled movers, mean: ") + name_of(row));
+      if (labels[row].movers_m.p95 < labels[Row::ours].movers_m.p95)
+        figures.beaten.push_back(std::string("labelled movers, p95: ") + name_of(row));
+    }
+  }
   compare("moving objects, mean", [&](const RowFigures& r) { return mean(r.moving.position_m); });
   compare("static objects, mean", [&](const RowFigures& r) { return mean(r.standing.position_m); });
   compare("points of moving objects", [&](const RowFigures& r) { return mean(r.moving_points_m); });
@@ -235,7 +259,8 @@ Figures compute_figures(const LogResult& result) {
   add_binned(result, figures);
   add_depth_by_object(result, figures);
   count_left_out(result, figures);
-  find_beaten(figures);
+  add_reference(result, figures);
+  find_beaten(result, figures);
   return figures;
 }
 

@@ -54,6 +54,9 @@ struct Figures {
   std::vector<Binned> binned;
   std::map<std::string, PerRow<ErrorSummary>> depth_by_object;  ///< percent, by id; moving ones
   std::map<std::string, int> left_out;                          ///< reason, how many objects
+  /// Mean uncertainty of the references, moving and standing objects, m.
+  ErrorSummary reference_moving_m, reference_standing_m;
+  int num_interpolated = 0;         ///< scans whose reference is of other instants
   std::vector<std::string> beaten;  ///< figures in which a baseline beats ours, in words
 };
 

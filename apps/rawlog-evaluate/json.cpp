@@ -92,6 +92,7 @@ Json json_of(const ScanResult& scan) {
   Json json{{"stamp", scan.stamp.time_since_epoch().count()},
             {"key_stamp", scan.key_stamp.time_since_epoch().count()},
             {"dt_s", scan.dt},
+            {"reference_interpolated", scan.interpolated},
             {"ego_found", scan.ego_found},
             {"points_told", scan.points_told}};
   for (const Row row : kRows) {
@@ -120,6 +121,23 @@ Json json_of(const Binned& binned) {
   return json;
 }
 
+Json json_of(const LabelScores& scores, int num_unlabelled) {
+  Json json{{"virtual_scans_not_labelled", num_unlabelled}};
+  for (const Row row : kRows) {
+    if (!scores[row]) continue;
+    for (const auto& [name, value] : named_figures(label_figures(*scores[row])))
+      json["rows"][name_of(row)][name] = value;
+  }
+  for (const auto& [key, groups] : label_groups(scores))
+    for (const LabelGroup& group : groups) {
+      Json entry{{"of", group.name}, {"count", group.count}};
+      for (const Row row : kRows)
+        if (group.mean_m[row]) entry["mean_m"][name_of(row)] = *group.mean_m[row];
+      json["movers_by_" + key].push_back(entry);
+    }
+  return json;
+}
+
 }  // namespace
 
 Json to_json(const LogResult& result, const Figures& figures) {
@@ -130,6 +148,7 @@ Json to_json(const LogResult& result, const Figures& figures) {
             {"num_unmatched", result.num_unmatched},
             {"protocol", result.protocol},
             {"notes", result.notes}};
+  if (result.labels[Row::ego]) json["labels"] = json_of(result.labels, result.num_unlabelled);
   for (const Row row : kRows) json["summary"][name_of(row)] = json_of(figures.rows[row]);
   json["baseline_beats_ours"] = figures.beaten;
   json["position_error_m"] = Json::array();

@@ -13,7 +13,6 @@
 #include "page/running_time.h"
 #include "rawlog-densify/job_settings.h"
 #include "report.h"
-#include "told_movers.h"
 #include "uncertainty.h"
 
 namespace {
@@ -23,10 +22,10 @@ using namespace lidar_upsampling;  // NOLINT(google-build-using-namespace)
 struct Request {
   EvaluationJob job;
   std::vector<std::string> references, inputs, truth_objects;  ///< of each log
-  std::string json, html, report, config, protocol;
+  std::string json, csv, html, report, config, protocol;
   std::vector<std::string> sets;
   bool no_paper = false;
-  double tolerance_ms = 15;
+  double tolerance_ms = 60;
 };
 
 void add_options(CLI::App& app, Request& request) {
@@ -43,13 +42,18 @@ void add_options(CLI::App& app, Request& request) {
       ->expected(1)
       ->take_all();
   app.add_option("--json", request.json, "everything, per scan and object")->needs(reference);
+  app.add_option("--csv", request.csv, "the headline as row,figure,value: for tables over logs")
+      ->needs(reference);
   app.add_option("--html", request.html,
                  "one page for people: tables, plots, and pictures of the worst objects");
-  app.add_option("--report", request.report,
-                 "what rawlog-densify --report wrote: running time, tracks and velocities");
+  app.add_option(
+      "--report", request.report,
+      "what rawlog-densify --report wrote: running time, tracks and velocities; row `ours` by "
+      "labels");
   app.add_option("--label", job.label, "the LiDAR; default: the one that has virtual scans");
-  app.add_option("--truth-objects", request.truth_objects,
-                 "..._objects.csv of rawlog-simulate or an importer (with ..._ego.csv beside it)")
+  app.add_option("--truth-objects,--labels", request.truth_objects,
+                 "..._objects.csv of rawlog-simulate, an importer or your own (with ..._ego.csv "
+                 "beside it): exact truth or people's labels")
       ->needs(reference)
       ->expected(1)
       ->take_all();
@@ -57,7 +61,7 @@ void add_options(CLI::App& app, Request& request) {
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
   app.add_option("--tolerance", request.tolerance_ms,
-                 "between a virtual scan and its reference, ms")
+                 "from a virtual scan to the nearest withheld scan, ms; further ones are left out")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
   app.add_flag("--all-around", job.options.all_around, "objects outside of the cameras' view, too");
@@ -97,10 +101,14 @@ void write_file(const std::string& text, const std::string& path) {
   if (!file) throw std::runtime_error(path + ": cannot be written");
 }
 
-Comparison compare(Request& request, bool with_pictures) {
+Comparison compare(Request& request, const std::optional<RunReport>& run, bool with_pictures) {
   EvaluationJob& job = request.job;
   job.tolerance_s = 1e-3 * request.tolerance_ms;
+  job.report = run ? &*run : nullptr;
   job.paper_row = !request.no_paper;
+  job.paper.keep_rows = true;
+  job.options.labels.max_range_m = job.options.max_range_m;
+  job.options.labels.all_around = job.options.all_around;
   if (!request.protocol.empty()) job.options.protocol = find_protocol(request.protocol);
   request.sets.emplace_back("preset=paper");
   load_settings(job.paper, request.config, request.sets, "");
@@ -130,19 +138,19 @@ void evaluate(Request& request) {
   PageContent content;
   content.input = request.inputs.front();
   if (!request.report.empty()) content.run = load_run_report(request.report);
-  if (!request.references.empty()) content.comparison = compare(request, wants_page);
+  if (!request.references.empty()) content.comparison = compare(request, content.run, wants_page);
   if (const auto& comparison = content.comparison)
     std::cout << to_table(comparison->result, comparison->figures, comparison->protocol);
   if (content.run && content.comparison) {
     const LogResult& result = content.comparison->result;
-    std::cout << to_text(calibration_of(result, *content.run))
-              << to_text(told_movers(result, *content.run, request.job.options.max_range_m),
-                         result.has_truth);
+    std::cout << to_text(calibration_of(result, *content.run));
   }
   if (content.run) std::cout << to_text(running_time_of(*content.run));
   if (!request.json.empty())
     write_file(to_json(content.comparison->result, content.comparison->figures).dump(1) + '\n',
                request.json);
+  if (!request.csv.empty())
+    write_file(to_csv(content.comparison->result, content.comparison->figures), request.csv);
   if (!wants_page) return;
   content.coverage = measure_coverage(index_log(request.inputs.front()), request.job.label,
                                       1e-3 * request.tolerance_ms);

@@ -7,6 +7,7 @@
 
 #include "evaluation.h"
 #include "figures.h"
+#include "label_table.h"
 
 namespace lidar_upsampling {
 
@@ -16,5 +17,8 @@ namespace lidar_upsampling {
 
 /// Everything, per scan and object; the summary first.
 [[nodiscard]] nlohmann::ordered_json to_json(const LogResult& result, const Figures& figures);
+
+/// The headline as `row,figure,value` lines: for tables over several logs.
+[[nodiscard]] std::string to_csv(const LogResult& result, const Figures& figures);
 
 }  // namespace lidar_upsampling

@@ -37,28 +37,58 @@ std::optional<LidarScan> ScanFeed::next() {
 }
 
 ReferenceScans::ReferenceScans(const std::string& path, const std::string& label,
-                               std::vector<Stamp> stamps, double tolerance_s)
+                               std::vector<Stamp> stamps, const std::vector<Stamp>& kept,
+                               double tolerance_s)
     : stamps_(std::move(stamps)),
+      kept_(kept),
       tolerance_s_(tolerance_s),
       feed_(path, [this, label](const std::string& of_scan, Stamp stamp) {
         return of_scan == label && stamp >= asked_;
       }) {
   std::sort(stamps_.begin(), stamps_.end());
+  std::sort(kept_.begin(), kept_.end());
+  none_withheld_ = std::all_of(stamps_.begin(), stamps_.end(), [this](Stamp stamp) {
+    return std::binary_search(kept_.begin(), kept_.end(), stamp);
+  });
 }
 
-const LidarScan* ReferenceScans::nearest(Stamp stamp) {
-  const auto next = std::lower_bound(stamps_.begin(), stamps_.end(), stamp);
-  const auto off = [stamp](Stamp other) { return std::abs(seconds_between(stamp, other)); };
-  auto best = next;
-  if (next != stamps_.begin() && (next == stamps_.end() || off(*std::prev(next)) < off(*next)))
-    best = std::prev(next);
-  if (best == stamps_.end() || off(*best) > tolerance_s_) return nullptr;
-  asked_ = *best;
-  while (!scan_ || scan_->stamp < asked_) {
-    scan_ = feed_.next();
-    if (!scan_) return nullptr;
+bool ReferenceScans::is_withheld(Stamp stamp) const {
+  return none_withheld_ || !std::binary_search(kept_.begin(), kept_.end(), stamp);
+}
+
+std::optional<ScansAround> ReferenceScans::around(Stamp stamp, Stamp key) {
+  const auto after = std::lower_bound(stamps_.begin(), stamps_.end(), stamp);
+  const bool at_scan = after != stamps_.end() && *after == stamp;
+  std::optional<Stamp> before, next, nearest;
+  if (!at_scan && after != stamps_.begin() && *std::prev(after) > key) before = *std::prev(after);
+  if (after != stamps_.end()) next = *after;
+  for (const auto& candidate : {before, next}) {
+    if (!candidate || !is_withheld(*candidate)) continue;
+    const auto off = [&](Stamp other) { return std::abs(seconds_between(other, stamp)); };
+    if (off(*candidate) <= tolerance_s_ && (!nearest || off(*candidate) < off(*nearest)))
+      nearest = candidate;
   }
-  return scan_->stamp == asked_ ? &*scan_ : nullptr;
+  if (!nearest) return {};
+  ScansAround around;
+  if (before) around.before = scan_at(*before);
+  if (next) around.after = scan_at(*next);
+  around.nearest = nearest == before ? around.before : around.after;
+  if (around.nearest == nullptr) return {};
+  return around;
+}
+
+const LidarScan* ReferenceScans::scan_at(Stamp stamp) {
+  const auto known = std::find_if(scans_.begin(), scans_.end(),
+                                  [stamp](const LidarScan& scan) { return scan.stamp == stamp; });
+  if (known != scans_.end()) return &*known;
+  asked_ = stamp;
+  while (auto scan = feed_.next()) {
+    scans_.push_back(std::move(*scan));
+    // Pointers to the others stay good.
+    if (scans_.size() > 3) scans_.pop_front();
+    if (scans_.back().stamp == stamp) return &scans_.back();
+  }
+  return nullptr;
 }
 
 }  // namespace lidar_upsampling

@@ -6,6 +6,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "lidar_upsampling/io/rawlog_stream.h"
 #include "lidar_upsampling/types.h"
@@ -29,25 +30,42 @@ class ScanFeed {
   std::deque<LidarScan> waiting_;  // of the same sensory frame
 };
 
-/// @brief The scan of a log that lies nearest to a stamp; stamps are asked for in ascending order.
+/// The real scans about an instant.
+struct ScansAround {
+  const LidarScan* before =
+      nullptr;  ///< the last one at or before it; null if it is not after the key scan
+  const LidarScan* after = nullptr;    ///< the first one at or after it
+  const LidarScan* nearest = nullptr;  ///< the withheld one of them that lies nearer
+};
+
+/// @brief The scans of a log about instants that are asked for in ascending order.
 class ReferenceScans {
  public:
   /// @param stamps of the label's scans in the log.
+  /// @param kept stamps of the scans that the densified log still holds; where all are kept, each
+  /// counts as withheld.
   ReferenceScans(const std::string& path, const std::string& label, std::vector<Stamp> stamps,
-                 double tolerance_s);
+                 const std::vector<Stamp>& kept, double tolerance_s);
 
   ReferenceScans(const ReferenceScans&) = delete;
   ReferenceScans& operator=(const ReferenceScans&) = delete;
 
-  /// @return none if there is none within the tolerance.
-  [[nodiscard]] const LidarScan* nearest(Stamp stamp);
+  [[nodiscard]] bool none_withheld() const { return none_withheld_; }
+
+  /// @param key the key scan's stamp: scans up to it tell nothing.
+  /// @return none without a withheld scan within the tolerance. Good until the next call.
+  [[nodiscard]] std::optional<ScansAround> around(Stamp stamp, Stamp key);
 
  private:
-  std::vector<Stamp> stamps_;
+  [[nodiscard]] const LidarScan* scan_at(Stamp stamp);
+  [[nodiscard]] bool is_withheld(Stamp stamp) const;
+
+  std::vector<Stamp> stamps_, kept_;
+  bool none_withheld_ = false;
   double tolerance_s_;
   Stamp asked_;
   ScanFeed feed_;
-  std::optional<LidarScan> scan_;
+  std::deque<LidarScan> scans_;  // the last ones read
 };
 
 }  // namespace lidar_upsampling

@@ -152,13 +152,49 @@ std::string trajectory_block(const Figures& figures, const Protocol& protocol) {
   return block + "\n";
 }
 
+std::string reference_line(const LogResult& result, const Figures& figures) {
+  if (result.has_truth)
+    return formatted("reference: exact, or labels; %d scans brought to another instant\n",
+                     figures.num_interpolated);
+  return formatted(
+      "reference: registered, %d of them between two scans; uncertainty (mean sigma) of moving "
+      "objects %.3f m, static %.3f m\n",
+      figures.num_interpolated, figures.reference_moving_m.mean, figures.reference_standing_m.mean);
+}
+
 }  // namespace
+
+std::string to_csv(const LogResult& result, const Figures& figures) {
+  std::string csv = "row,figure,value\n";
+  const auto line = [&](Row row, const std::string& name, double value) {
+    csv += formatted("%s,%s,%.6g\n", name_of(row), name.c_str(), value);
+  };
+  const auto errors = [&](Row row, const std::string& name, const ErrorSummary& summary) {
+    if (summary.count > 0) line(row, name, summary.mean);
+  };
+  for (const Row row : kRows) {
+    if (result.labels[row])
+      for (const auto& [name, value] : named_figures(label_figures(*result.labels[row])))
+        line(row, name, value);
+    const RowFigures& f = figures.rows[row];
+    errors(row, "moving_objects_mean_m", f.moving.position_m);
+    errors(row, "static_objects_mean_m", f.standing.position_m);
+    errors(row, "moving_points_m", f.moving_points_m);
+    errors(row, "static_scene_m", f.static_scene_m);
+    errors(row, "chamfer_m", f.chamfer_m);
+    errors(row, "chamfer_in_view_m", f.view_chamfer_m);
+  }
+  return csv;
+}
 
 std::string to_table(const LogResult& result, const Figures& figures,
                      const std::optional<Protocol>& protocol) {
-  std::string table = formatted("%s: %d virtual scans, %zu compared, %d without a reference\n",
-                                result.virtual_label.c_str(), result.num_virtual,
-                                result.scans.size(), result.num_unmatched);
+  std::string table =
+      formatted(
+          "%s: %d virtual scans, %zu compared, %d left out: no withheld scan within %.0f ms\n",
+          result.virtual_label.c_str(), result.num_virtual, result.scans.size(),
+          result.num_unmatched, 1e3 * result.tolerance_s) +
+      reference_line(result, figures) + to_text(result.labels, result.num_unlabelled);
   table += object_block("moving objects, position error", figures, &RowFigures::moving);
   table += object_block("static objects, position error", figures, &RowFigures::standing);
   for (const Binned& binned : figures.binned) table += bin_block(binned);

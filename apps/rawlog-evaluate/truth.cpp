@@ -2,38 +2,14 @@
 // Copyright (c) 2026, the lidar_upsampling authors
 #include "truth.h"
 
-#include <mrpt/poses/CPose3D.h>
-
-#include <stdexcept>
-
-#include "lidar_upsampling/csv_table.h"
-#include "lidar_upsampling/io/images.h"
+#include <cmath>
 
 namespace lidar_upsampling {
 
 namespace {
 
-// The simulator writes at every image: further apart, something is missing.
-constexpr InterpolationLimits kTruthLimits{0.25, 0};
-
-Stamp stamp_of(const CsvTable& table, std::size_t row) {
-  return Stamp(mrpt::Clock::duration(table.integer(row, "stamp")));
-}
-
-Pose pose_of(const CsvTable& table, std::size_t row) {
-  const auto value = [&](const char* column) { return table.number(row, column); };
-  return from_mrpt(mrpt::poses::CPose3D(value("x"), value("y"), value("z"), value("yaw"),
-                                        value("pitch"), value("roll")));
-}
-
-std::string ego_csv_beside(const std::string& objects_csv) {
-  const std::string ending = "_objects.csv";
-  const auto at = objects_csv.rfind(ending);
-  if (at == std::string::npos || at + ending.size() != objects_csv.size())
-    throw std::runtime_error(objects_csv + ": the name must end in " + ending +
-                             ", as the ego-motion is looked for in ..._ego.csv beside it");
-  return objects_csv.substr(0, at) + "_ego.csv";
-}
+constexpr double kLongestGap_s = 0.6;  // labels come at 2 Hz or more; further apart, one is missing
+constexpr double kBeyondLabels_s = 0.06;  // a picture lies this far from its labelled scan at most
 
 std::optional<Pose> lidar_in_world(const Truth& truth, const LidarScan& scan, Stamp stamp) {
   const auto vehicle = truth.T_world_vehicle.at(stamp);
@@ -44,6 +20,7 @@ std::optional<Pose> lidar_in_world(const Truth& truth, const LidarScan& scan, St
 }  // namespace
 
 bool TrueObject::moves_at(Stamp stamp) const {
+  if (moving.empty()) return false;  // no label tells
   const auto next = moving.lower_bound(stamp);
   if (next == moving.begin()) return next->second;
   const auto before = std::prev(next);
@@ -51,31 +28,21 @@ bool TrueObject::moves_at(Stamp stamp) const {
   return next->first - stamp < stamp - before->first ? next->second : before->second;
 }
 
-Truth load_truth(const std::string& objects_csv) {
-  Truth truth;
-  truth.T_world_vehicle = Trajectory(kTruthLimits);
-  const CsvTable ego(ego_csv_beside(objects_csv));
-  for (std::size_t row = 0; row < ego.num_rows(); ++row)
-    truth.T_world_vehicle.add({stamp_of(ego, row), pose_of(ego, row)});
-
-  const CsvTable boxes(objects_csv);
-  std::map<std::string, std::size_t> place;
-  for (std::size_t row = 0; row < boxes.num_rows(); ++row) {
-    const std::string& id = boxes.text(row, "id");
-    const auto [found, is_new] = place.emplace(id, truth.objects.size());
-    if (is_new) {
-      truth.objects.push_back(
-          {id,
-           boxes.text(row, "class"),
-           {boxes.number(row, "length"), boxes.number(row, "width"), boxes.number(row, "height")},
-           Trajectory(kTruthLimits),
-           {}});
-    }
-    TrueObject& object = truth.objects[found->second];
-    object.T_world_object.add({stamp_of(boxes, row), pose_of(boxes, row)});
-    object.moving[stamp_of(boxes, row)] = boxes.integer(row, "moving") != 0;
+std::optional<Eigen::Vector3d> TrueObject::velocity_at(Stamp stamp) const {
+  const auto next = velocity.lower_bound(stamp);
+  const auto apart = [stamp](const auto& label) {
+    return std::abs(seconds_between(label->first, stamp));
+  };
+  if (next != velocity.end() && next != velocity.begin()) {
+    const auto before = std::prev(next);
+    const double gap = seconds_between(before->first, next->first);
+    if (gap <= kLongestGap_s)
+      return before->second + apart(before) / gap * (next->second - before->second);
   }
-  return truth;
+  if (next != velocity.end() && apart(next) <= kBeyondLabels_s) return next->second;
+  if (next != velocity.begin() && apart(std::prev(next)) <= kBeyondLabels_s)
+    return std::prev(next)->second;
+  return std::nullopt;
 }
 
 std::optional<Pose> true_ego_motion(const Truth& truth, const LidarScan& key, Stamp stamp) {

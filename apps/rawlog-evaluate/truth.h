@@ -12,25 +12,37 @@
 
 namespace lidar_upsampling {
 
-/// A box of known motion; its pose is that of its centre.
+/// A box of known motion, a simulator's or a label's; its pose is that of its centre.
 struct TrueObject {
   std::string id, class_name;
   Eigen::Vector3d size = Eigen::Vector3d::Zero();  ///< m: length, width, height
   Trajectory T_world_object;
   std::map<Stamp, bool> moving;
+  std::map<Stamp, Eigen::Vector3d> velocity;  ///< m/s in the world, at the labels that tell one
 
   /// At the nearest stamp known.
   [[nodiscard]] bool moves_at(Stamp stamp) const;
+  /// Between two labels that tell one, or within 60 ms of one. @return none further off.
+  [[nodiscard]] std::optional<Eigen::Vector3d> velocity_at(Stamp stamp) const;
 };
 
-/// A simulator's exact knowledge.
+/// An area of a camera's picture with objects that nobody labelled.
+struct IgnoredArea {
+  std::string camera;
+  Box2d box;
+};
+
+/// What a simulator knows exactly, or people have labelled.
 struct Truth {
   Trajectory T_world_vehicle;
   std::vector<TrueObject> objects;
+  std::multimap<Stamp, IgnoredArea> ignored;
 };
 
-/// @brief Reads `<stem>_objects.csv` and, beside it, `<stem>_ego.csv`, as rawlog-simulate writes
-/// them.
+/// @brief Reads `<stem>_objects.csv` and, beside it, `<stem>_ego.csv` and, if there is one,
+/// `<stem>_ignored.csv`, as rawlog-simulate and the importers write them. Columns that may be left
+/// out: pitch, roll; vx, vy, vz (then fitted to the neighbouring boxes' centres); moving (then by
+/// the speed).
 /// @throw std::runtime_error naming the file, line and column at fault.
 [[nodiscard]] Truth load_truth(const std::string& objects_csv);
 

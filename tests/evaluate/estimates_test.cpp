@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include "key_objects.h"
+#include "lidar_upsampling/objects/ground.h"
 #include "objects/street_scan.h"
 
 namespace lidar_upsampling {
@@ -41,10 +43,10 @@ class Rows : public ::testing::Test {
 };
 
 TEST_F(Rows, constant_velocity_goes_on_as_between_the_last_two_scans) {
-  ScanSet scans{key_, later_, later_};
-  scans.previous = &previous_;
-  scans.T_previous_key = Pose::Identity();
-  const Estimates rows = estimates(scans);
+  std::vector<ObjectReference> objects{car_};
+  find_last_motions(objects, key_, Surface(without_ground(previous_)), Pose::Identity(), 0.1);
+  car_ = objects.front();
+  const Estimates rows = estimates({key_, later_, later_});
   ASSERT_TRUE(rows[Row::constant_velocity]);
   EXPECT_LT(position_error(car_.motion, *rows[Row::constant_velocity]), 0.05);
 }

@@ -62,12 +62,28 @@ ReportedObject object_of(const Json& row) {
   ReportedObject object;
   object.stamp = row.at("stamp").get<std::int64_t>();
   object.status = row.at("status").get<std::string>();
+  object.track = row.at("track").get<int>();
+  object.points = row.at("points").get<int>();
+  object.moving = row.at("moving").get<bool>();
   object.sigma = row.at("position_sigma_m").get<double>();
-  for (int i = 0; i < 3; ++i) object.position[i] = row.at("position_m").at(i).get<double>();
+  for (int i = 0; i < 3; ++i) {
+    object.position[i] = row.at("position_m").at(i).get<double>();
+    object.velocity[i] = row.at("velocity_m_s").at(i).get<double>();
+  }
   const auto c = row.at("position_covariance_m2").get<std::array<double, 6>>();
   object.covariance << c[0], c[1], c[2], c[1], c[3], c[4], c[2], c[4], c[5];
   return object;
 }
+
+}  // namespace
+
+std::vector<ReportedObject> reported_objects(const nlohmann::json& report) {
+  std::vector<ReportedObject> objects;
+  for (const Json& row : report.at("objects")) objects.push_back(object_of(row));
+  return objects;
+}
+
+namespace {
 
 RunReport report_of(const Json& json) {
   RunReport report;
@@ -85,7 +101,7 @@ RunReport report_of(const Json& json) {
                              stage.at("median_ms").get<double>(), stage.at("p95_ms").get<double>(),
                              stage.at("total_ms").get<double>()});
   report.tracks = tracks_of(json.at("objects"));
-  for (const Json& row : json.at("objects")) report.objects.push_back(object_of(row));
+  report.objects = reported_objects(json);
   return report;
 }
 

@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <map>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
@@ -35,7 +36,11 @@ struct TrackFigures {
 struct ReportedObject {
   std::int64_t stamp = 0;  ///< MRPT ticks
   std::string status;
+  int track = -1;                                        ///< -1: not tracked
+  int points = 0;                                        ///< of the key scan
+  bool moving = false;                                   ///< told to move
   Eigen::Vector3d position = Eigen::Vector3d::Zero();    ///< of its centroid, lidar frame, m
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();    ///< over ground, lidar frame, m/s
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< m^2; zero: not known
   double sigma = 0;                                      ///< m, worst direction
 };
@@ -53,5 +58,8 @@ struct RunReport {
 
 /// @throw std::runtime_error the file cannot be read, or is no such report.
 [[nodiscard]] RunReport load_run_report(const std::string& path);
+
+/// The objects of a report that was not written to a file.
+[[nodiscard]] std::vector<ReportedObject> reported_objects(const nlohmann::json& report);
 
 }  // namespace lidar_upsampling

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the lidar_upsampling authors
+#include "key_objects.h"
+
+#include <tbb/parallel_for.h>
+
+#include <cmath>
+
+#include "lidar_upsampling/objects/detector.h"
+#include "lidar_upsampling/objects/scene_segments.h"
+
+namespace lidar_upsampling {
+
+namespace {
+
+/// As large as road users are; walls and hedges have no motion to measure.
+bool is_object(const ClusterExtent& extent, const std::vector<int>& cluster) {
+  const ClusterDetectorOptions size;
+  return static_cast<int>(cluster.size()) >= size.min_points && extent.top >= size.min_height &&
+         extent.top <= size.max_height && extent.bottom <= size.max_bottom &&
+         extent.length >= size.min_length && extent.length <= size.max_length &&
+         extent.width <= size.max_width;
+}
+
+/// Points of the scan inside a box grown by a tenth of a metre.
+std::vector<int> points_in_box(const LidarScan& scan, const Ground& ground, const Pose& T_box_lidar,
+                               const Eigen::Vector3d& size) {
+  const Eigen::Array3d reach = 0.5 * size.array() + 0.1;
+  const Eigen::Vector3d centre = T_box_lidar.inverse().translation();
+  const double reach_sq = reach.matrix().squaredNorm();
+  std::vector<int> points;
+  for (int i = 0; i < static_cast<int>(scan.size()); ++i) {
+    const Eigen::Vector3d point = scan.points[i].cast<double>();
+    if ((point - centre).squaredNorm() > reach_sq) continue;
+    const bool on_ground = !ground.is_ground.empty() && ground.is_ground[i] != 0;
+    if (!on_ground && ((T_box_lidar * point).array().abs() < reach).all()) points.push_back(i);
+  }
+  return points;
+}
+
+}  // namespace
+
+std::vector<ObjectReference> objects_by_clusters(const LidarScan& key) {
+  const SceneSegments segments = segment_scan(key);
+  std::vector<ObjectReference> objects;
+  for (std::size_t i = 0; i < segments.clusters.size(); ++i) {
+    if (!is_object(segments.extents[i], segments.clusters[i])) continue;
+    ObjectReference object;
+    object.id = std::to_string(i);
+    object.class_name = "cluster";
+    object.points = segments.clusters[i];
+    object.motion.centroid_k = centroid_of(points_at(key, object.points));
+    objects.push_back(std::move(object));
+  }
+  return objects;
+}
+
+std::vector<ObjectReference> objects_by_truth(const LidarScan& key, const Truth& truth,
+                                              int min_points) {
+  const Ground ground = estimate_ground(key);
+  std::vector<ObjectReference> objects;
+  for (const TrueObject& box : truth.objects) {
+    const auto T_box_lidar = box_in_scan(truth, box, key);
+    if (!T_box_lidar) continue;
+    ObjectReference object;
+    object.id = box.id;
+    object.class_name = box.class_name;
+    object.points = points_in_box(key, ground, *T_box_lidar, box.size);
+    if (object.points.empty()) continue;
+    object.motion.centroid_k = centroid_of(points_at(key, object.points));
+    if (static_cast<int>(object.points.size()) < min_points)
+      object.excluded = to_string(RegistrationStatus::too_few_points);
+    objects.push_back(std::move(object));
+  }
+  return objects;
+}
+
+void find_last_motions(std::vector<ObjectReference>& objects, const LidarScan& key,
+                       const Surface& previous, const Pose& T_previous_key, double dt) {
+  tbb::parallel_for(std::size_t{0}, objects.size(), [&](std::size_t i) {
+    if (!objects[i].excluded.empty()) return;
+    const auto found = register_object(points_at(key, objects[i].points), previous,
+                                       {T_previous_key, Pose::Identity()});
+    if (found.status != RegistrationStatus::reliable) return;
+    // Back over ground from the key scan to the one before it, both in the frame of the key scan.
+    const Pose T_back = T_previous_key.inverse() * found.T_target_object;
+    objects[i].last_motion =
+        LastMotion{-log_se3(T_back) / dt, dt, std::hypot(0.02, found.spread_m)};
+  });
+}
+
+std::vector<ReportedObject> constant_velocity_rows(const std::vector<ObjectReference>& objects,
+                                                   const Pose& T_ego, double dt,
+                                                   std::int64_t told_at,
+                                                   const MovingOptions& options) {
+  std::vector<ReportedObject> rows;
+  for (const ObjectReference& object : objects) {
+    if (!object.last_motion) continue;
+    const auto& [per_second, dt_last, sigma_m] = *object.last_motion;
+    const Eigen::Vector3d& centre = object.motion.centroid_k;
+    const ReferenceMotion step{centre, exp_se3(Twist(dt_last * per_second)), sigma_m};
+    ReportedObject row;
+    row.stamp = told_at;
+    row.points = static_cast<int>(object.points.size());
+    row.moving = is_moving(step, Pose::Identity(), dt_last, options);
+    const Eigen::Vector3d moved = exp_se3(Twist(dt * per_second)) * centre;
+    row.position = T_ego * moved;
+    row.velocity = T_ego.linear() * (moved - centre) / dt;
+    rows.push_back(row);
+  }
+  return rows;
+}
+
+}  // namespace lidar_upsampling

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the lidar_upsampling authors
+#pragma once
+
+#include <vector>
+
+#include "evaluation.h"
+#include "lidar_upsampling/registration/surface.h"
+
+namespace lidar_upsampling {
+
+/// @brief The key scan's clusters that are as large as road users, motion still unknown.
+[[nodiscard]] std::vector<ObjectReference> objects_by_clusters(const LidarScan& key);
+
+/// @brief The key scan's objects by true boxes, their points without the ground.
+[[nodiscard]] std::vector<ObjectReference> objects_by_truth(const LidarScan& key,
+                                                            const Truth& truth, int min_points);
+
+/// @brief What row `constant-velocity` goes by: each object registered to the scan before.
+/// @param previous off the ground. @param T_previous_key ego-motion, lidar frames.
+/// @param dt s, between the scans.
+void find_last_motions(std::vector<ObjectReference>& objects, const LidarScan& key,
+                       const Surface& previous, const Pose& T_previous_key, double dt);
+
+/// @brief What row `constant-velocity` would tell of these objects at an instant.
+/// @param T_ego T_lidar_t_lidar_k. @param dt s, since the key scan.
+[[nodiscard]] std::vector<ReportedObject> constant_velocity_rows(
+    const std::vector<ObjectReference>& objects, const Pose& T_ego, double dt, std::int64_t told_at,
+    const MovingOptions& options);
+
+}  // namespace lidar_upsampling

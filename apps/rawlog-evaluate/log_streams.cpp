@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the lidar_upsampling authors
+#include "log_streams.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace lidar_upsampling {
+
+const char* const kVirtualEnding = "_VIRTUAL";
+
+namespace {
+
+const std::string kEnding = kVirtualEnding;
+
+bool is_virtual(const std::string& label) {
+  return label.size() > kEnding.size() &&
+         label.compare(label.size() - kEnding.size(), kEnding.size(), kEnding) == 0;
+}
+
+}  // namespace
+
+std::string find_label(const LogIndex& input, const std::string& wanted) {
+  for (const StreamInfo* stream : input.of_kind(StreamKind::lidar)) {
+    if (!is_virtual(stream->label)) continue;
+    std::string real = stream->label.substr(0, stream->label.size() - kEnding.size());
+    if (wanted.empty() || wanted == real) return real;
+  }
+  throw std::runtime_error(input.path + ": holds no virtual scans (label " +
+                           (wanted.empty() ? "..." : wanted) + kEnding +
+                           "); densify it with rawlog-densify. It holds " + labels_of(input));
+}
+
+const StreamInfo& reference_stream(const LogIndex& reference, const std::string& label) {
+  if (const StreamInfo* same = reference.find(label, StreamKind::lidar)) return *same;
+  const auto lidars = reference.of_kind(StreamKind::lidar);
+  if (lidars.size() == 1) return *lidars.front();
+  throw std::runtime_error(reference.path + ": holds no LiDAR scans with label " + label +
+                           ". It holds " + labels_of(reference));
+}
+
+std::vector<Camera> calibrated_cameras(const LogIndex& index) {
+  std::vector<Camera> cameras;
+  for (const StreamInfo* stream : index.of_kind(StreamKind::camera))
+    if (stream->calibrated()) cameras.push_back(*stream->camera);
+  return cameras;
+}
+
+LogIndex whole_index(const std::string& path) {
+  LogIndex index = index_log(path);
+  if (index.corruption) throw std::runtime_error(*index.corruption);
+  return index;
+}
+
+LogIndex without_virtual(LogIndex index, const std::string& virtual_label) {
+  auto& streams = index.streams;
+  streams.erase(std::remove_if(streams.begin(), streams.end(),
+                               [&](const StreamInfo& s) { return s.label == virtual_label; }),
+                streams.end());
+  return index;
+}
+
+}  // namespace lidar_upsampling

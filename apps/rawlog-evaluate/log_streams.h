@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the lidar_upsampling authors
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "lidar_upsampling/io/log_index.h"
+#include "lidar_upsampling/types.h"
+
+namespace lidar_upsampling {
+
+/// What rawlog-densify appends to the label of the LiDAR.
+extern const char* const kVirtualEnding;
+
+/// @brief The LiDAR whose virtual scans the log holds.
+/// @throw std::runtime_error it holds none.
+[[nodiscard]] std::string find_label(const LogIndex& input, const std::string& wanted);
+
+/// @brief The scans to judge by. @throw std::runtime_error there are none, or of several LiDARs.
+[[nodiscard]] const StreamInfo& reference_stream(const LogIndex& reference,
+                                                 const std::string& label);
+
+[[nodiscard]] std::vector<Camera> calibrated_cameras(const LogIndex& index);
+
+/// @throw std::runtime_error the log is cut off or corrupt.
+[[nodiscard]] LogIndex whole_index(const std::string& path);
+
+/// The log as it was before it was densified.
+[[nodiscard]] LogIndex without_virtual(LogIndex index, const std::string& virtual_label);
+
+}  // namespace lidar_upsampling
