@@ -82,20 +82,21 @@ TEST_P(RigPromise, slow_scanner_leaves_200_ms_between_scans_and_pictures_change_
   EXPECT_GT(*gains.rbegin(), 1.5);
 }
 
-TEST_P(RigPromise, ring_sees_all_round_and_vehicles_pass_from_camera_to_camera) {
-  const Shipped ring("ring", GetParam());
-  ASSERT_EQ(ring.scenario.cameras.size(), 6U);
+TEST_P(RigPromise, ring_sees_all_round) {
+  const Scenario ring = Shipped::loaded("ring", GetParam());
+  ASSERT_EQ(ring.cameras.size(), 6U);
   for (int degree = 0; degree < 360; ++degree) {
     const Eigen::Vector3d to(std::cos(degree * kDegree), std::sin(degree * kDegree), 0);
-    EXPECT_TRUE(std::any_of(ring.scenario.cameras.begin(), ring.scenario.cameras.end(),
-                            [&](const CameraSpec& spec) {
-                              const CameraModel& m = spec.camera.model;
-                              const Eigen::Vector3d p =
-                                  spec.camera.T_vehicle_camera.linear().transpose() * to;
-                              return p.z() > 0 && std::abs(p.x() / p.z()) < 0.5 * m.width / m.fx;
-                            }))
-        << degree;
+    EXPECT_TRUE(std::any_of(ring.cameras.begin(), ring.cameras.end(), [&](const CameraSpec& spec) {
+      const CameraModel& m = spec.camera.model;
+      const Eigen::Vector3d p = spec.camera.T_vehicle_camera.linear().transpose() * to;
+      return p.z() > 0 && std::abs(p.x() / p.z()) < 0.5 * m.width / m.fx;
+    })) << degree;
   }
+}
+
+TEST_P(RigPromise, ring_vehicles_pass_from_camera_to_camera_overtaking_and_overtaken) {
+  const Shipped ring("ring", GetParam());
   int passing = 0;
   for (int v = 0; v < ring.num_vehicles(); ++v) {
     std::set<std::size_t> seen_by;
