@@ -2,6 +2,10 @@
 // Copyright (c) 2026, the lidar_upsampling authors
 #include "clouds.h"
 
+#include <tbb/parallel_for.h>
+
+#include <limits>
+
 #include "lidar_upsampling/metrics/chamfer.h"
 
 namespace lidar_upsampling {
@@ -35,6 +39,62 @@ Points moved_with_objects(const RowSources& sources, const std::vector<ObjectRes
   return cloud;
 }
 
+/// The points of an object of the scan, or the others.
+Points part_of(const Points& cloud, const std::vector<bool>& of_object, bool objects) {
+  Points part;
+  for (std::size_t i = 0; i < cloud.size(); ++i)
+    if (of_object[i] == objects) part.push_back(cloud[i]);
+  return part;
+}
+
+/// Rows that move the scene by the ego-motion and only objects otherwise: the scene is searched
+/// once for all of them.
+class SharedScene {
+ public:
+  /// @param ego the whole scan moved by the ego-motion.
+  SharedScene(const Points& ego, std::vector<bool> of_object, const Points& reference,
+              const PointIndex& reference_index)
+      : of_object_(std::move(of_object)), reference_(reference), reference_index_(reference_index) {
+    const Points scene = part_of(ego, of_object_, false);
+    forward_ = nearest_sq_distances(scene, reference_index);
+    if (scene.empty())
+      backward_.assign(reference.size(), std::numeric_limits<float>::max());
+    else
+      backward_ = nearest_sq_distances(reference, PointIndex(scene));
+  }
+
+  [[nodiscard]] Chamfer chamfer(const Points& cloud) const {
+    const Points objects = part_of(cloud, of_object_, true);
+    if (objects.empty()) return chamfer_of(forward_, backward_);
+    std::vector<float> forward = nearest_sq_distances(objects, reference_index_);
+    forward.insert(forward.end(), forward_.begin(), forward_.end());
+    return chamfer_of(forward, nearest_sq_distances(reference_, PointIndex(objects), &backward_));
+  }
+
+ private:
+  std::vector<bool> of_object_;
+  const Points& reference_;
+  const PointIndex& reference_index_;
+  std::vector<float> forward_, backward_;
+};
+
+Chamfer chamfer_to(const Points& cloud, const Points& reference, const PointIndex& index) {
+  return chamfer_of(nearest_sq_distances(cloud, index),
+                    nearest_sq_distances(reference, PointIndex(cloud)));
+}
+
+bool shares_scene(Row row) {
+  return row == Row::ego || row == Row::constant_velocity || row == Row::oracle;
+}
+
+std::vector<bool> points_of_objects(std::size_t num_points,
+                                    const std::vector<ObjectResult>& objects) {
+  std::vector<bool> of_object(num_points);
+  for (const ObjectResult& object : objects)
+    for (const int i : object.object.points) of_object[i] = true;
+  return of_object;
+}
+
 }  // namespace
 
 PerRow<Points> whole_clouds(const RowSources& sources, const std::vector<ObjectResult>& objects) {
@@ -52,15 +112,24 @@ PerRow<Points> whole_clouds(const RowSources& sources, const std::vector<ObjectR
 
 void measure_clouds(const PerRow<Points>& clouds, const LidarScan& reference,
                     const std::vector<Camera>& cameras, ScanResult& result) {
+  if (reference.points.empty()) return;
+  const PointIndex index(reference.points);
   const Points seen = seen_only(reference.points, reference, cameras);
-  for (const Row row : kRows) {
-    // Nothing is sampled here: the floor is zero.
-    if (row == Row::floor || clouds[row].empty() || reference.points.empty()) continue;
-    CloudResult cloud{compute_chamfer(clouds[row], reference.points), std::nullopt};
+  const PointIndex seen_index(seen);
+  const SharedScene scene(clouds[Row::ego],
+                          points_of_objects(clouds[Row::ego].size(), result.objects),
+                          reference.points, index);
+  // Nothing is sampled here: the floor is zero, and left out.
+  tbb::parallel_for(std::size_t{1}, kRows.size(), [&](std::size_t i) {
+    const Row row = kRows[i];
+    if (clouds[row].empty()) return;
+    CloudResult cloud{shares_scene(row) ? scene.chamfer(clouds[row])
+                                        : chamfer_to(clouds[row], reference.points, index),
+                      std::nullopt};
     const Points own_seen = seen_only(clouds[row], reference, cameras);
-    if (!seen.empty() && !own_seen.empty()) cloud.in_view = compute_chamfer(own_seen, seen);
+    if (!seen.empty() && !own_seen.empty()) cloud.in_view = chamfer_to(own_seen, seen, seen_index);
     result.clouds[row] = cloud;
-  }
+  });
 }
 
 }  // namespace lidar_upsampling

@@ -10,6 +10,7 @@
 
 #include "instant_reference.h"
 #include "key_objects.h"
+#include "label_judge.h"
 #include "lidar_upsampling/front_end/pose_input.h"
 #include "lidar_upsampling/io/carriers.h"
 #include "lidar_upsampling/io/images.h"
@@ -23,35 +24,33 @@ namespace lidar_upsampling {
 
 namespace {
 
-// A virtual scan this near to a real one that the log still holds has nothing withheld to be judged
-// by labels: people's labels are those of the scans.
-constexpr double kAtRealScan_s = 0.015;
-
 /// A key scan and all that is judged once for it.
 struct KeyScan {
   LidarScan scan;
-  std::vector<ObjectReference> objects;   ///< with their last motions
-  std::vector<ObjectReference> clusters;  ///< the same without a truth, else the clusters' own
+  std::vector<ObjectReference> objects;
   std::optional<RegisteredMotions> motions;
+  std::optional<LastMotions> last_motions;  ///< none without a scan before
 };
 
 /// Goes once through the densified log. The `paper` row's run is fed alongside, so that its virtual
 /// scans come up when ours do.
 class Walk {
  public:
-  Walk(const EvaluationJob& job, const LogIndex& input, const LogIndex& reference,
+  /// @param reference null: by labels alone.
+  Walk(const EvaluationJob& job, const LogIndex& input, const LogIndex* reference,
        LogResult& result)
-      : job_(job),
-        result_(result),
-        cameras_(calibrated_cameras(input)),
-        real_stamps_(input.find(result.label, StreamKind::lidar)->stamps),
-        references_(job.reference, reference_stream(reference, result.label).label,
-                    reference_stream(reference, result.label).stamps, real_stamps_,
-                    job.tolerance_s) {
-    std::sort(real_stamps_.begin(), real_stamps_.end());
-    if (references_.none_withheld())
-      result_.notes.emplace_back("no scan was withheld: judged by real scans that the log holds");
-    if (!job.truth_objects.empty()) truth_ = load_truth(job.truth_objects);
+      : job_(job), result_(result), cameras_(calibrated_cameras(input)) {
+    const std::vector<Stamp>& real = input.find(result.label, StreamKind::lidar)->stamps;
+    if (reference != nullptr) {
+      const StreamInfo& stream = reference_stream(*reference, result.label);
+      references_.emplace(job.reference, stream.label, stream.stamps, real, job.tolerance_s);
+      if (references_->none_withheld())
+        result_.notes.emplace_back("no scan was withheld: judged by real scans that the log holds");
+    }
+    if (!job.truth_objects.empty()) {
+      truth_ = load_truth(job.truth_objects);
+      labels_.emplace(*truth_, job_.options, cameras_, real);
+    }
     if (!job.paper_row) return;
     try {
       paper_.emplace(job.paper, without_virtual(input, result.virtual_label), paper_report_);
@@ -79,7 +78,7 @@ class Walk {
   void finish() {
     if (paper_) take(paper_->flush());
     judge_waiting();
-    if (truth_) judge_by_labels();
+    if (labels_) judge_by_labels();
   }
 
  private:
@@ -104,30 +103,31 @@ class Walk {
     const auto previous = std::exchange(key_, std::make_unique<KeyScan>());
     key_->scan = std::move(scan);
     const LidarScan& key = key_->scan;
-    key_->objects = truth_ ? objects_by_truth(key, *truth_, job_.options.min_points_truth)
-                           : objects_by_clusters(key);
-    if (truth_) key_->clusters = objects_by_clusters(key);
-    if (previous) find_last_motions(previous->scan);
-    if (!truth_) key_->clusters = key_->objects;
-    key_->motions.emplace(key, key_->objects, job_.options);
+    if (labels_) labels_->take_key(key, previous ? &previous->scan : nullptr);
+    if (references_) prepare_key(previous ? &previous->scan : nullptr);
   }
 
-  void find_last_motions(const LidarScan& previous) {
+  void prepare_key(const LidarScan* previous) {
     const LidarScan& key = key_->scan;
-    const double dt = seconds_between(previous.stamp, key.stamp);
+    key_->objects = truth_ ? objects_by_truth(key, *truth_, job_.options.min_points_truth)
+                           : objects_by_clusters(key);
+    key_->motions.emplace(key, key_->objects, job_.options);
+    if (previous == nullptr) return;
+    const double dt = seconds_between(previous->stamp, key.stamp);
     if (!(dt > 0)) return;
-    std::optional<Pose> T_previous_key;
+    if (const auto T_previous_key = ego_motion_back_to(*previous))
+      key_->last_motions.emplace(*previous, *T_previous_key, dt);
+  }
+
+  [[nodiscard]] std::optional<Pose> ego_motion_back_to(const LidarScan& previous) const {
+    const LidarScan& key = key_->scan;
     if (truth_) {
-      if (const auto T = true_ego_motion(*truth_, previous, key.stamp))
-        T_previous_key = T->inverse();
-    } else if (const auto found =
-                   register_scans(key.points, previous.points, exp_se3(Twist(-dt * ego_rate_)))) {
-      T_previous_key = found->T_target_source;
+      const auto T = true_ego_motion(*truth_, previous, key.stamp);
+      return T ? std::make_optional(T->inverse()) : std::nullopt;
     }
-    if (!T_previous_key) return;
-    const Surface surface(without_ground(previous));
-    for (auto* objects : {&key_->objects, &key_->clusters})
-      lidar_upsampling::find_last_motions(*objects, key, surface, *T_previous_key, dt);
+    const double dt = seconds_between(previous.stamp, key.stamp);
+    const auto found = register_scans(key.points, previous.points, exp_se3(Twist(-dt * ego_rate_)));
+    return found ? std::make_optional(found->T_target_source) : std::nullopt;
   }
 
   [[nodiscard]] const LidarScan* paper_at(Stamp stamp) const {
@@ -145,44 +145,25 @@ class Walk {
       // beside.
       waiting.scan.stamp =
           shifted(waiting.scan.stamp, -1e-3 * job_.paper.config.timing.camera_time_offset_ms);
-      if (truth_ && key_) note_labels(waiting.scan.stamp, told_at);
-      judge(waiting.scan, paper, waiting.pictures);
+      if (labels_) labels_->note(waiting.scan.stamp, told_at);
+      if (references_) judge(waiting.scan, paper, waiting.pictures);
     }
     ours_.clear();
     papers_.clear();
   }
 
-  [[nodiscard]] bool at_real_scan(Stamp stamp) const {
-    const auto near = [&](auto real) {
-      return real != real_stamps_.end() && std::abs(seconds_between(*real, stamp)) < kAtRealScan_s;
-    };
-    const auto next = std::lower_bound(real_stamps_.begin(), real_stamps_.end(), stamp);
-    return near(next) || (next != real_stamps_.begin() && near(std::prev(next)));
-  }
-
-  void note_labels(Stamp stamp, Stamp told_at) {
-    std::optional<LabelledInstant> instant;
-    if (!at_real_scan(stamp))
-      instant = labelled_instant(*truth_, key_->scan, stamp, cameras_, job_.options.labels);
-    if (!instant) {
-      ++result_.num_unlabelled;
+  void judge_by_labels() {
+    result_.num_unlabelled = labels_->num_unlabelled();
+    if (labels_->num_noted() == 0) {
+      result_.notes.push_back("no row by labels: " + job_.truth_objects +
+                              " tells of none of the virtual scans' instants");
       return;
     }
-    instant->told_at = told_at.time_since_epoch().count();
-    const auto rows = constant_velocity_rows(key_->clusters, instant->T_lidar_k_lidar_t.inverse(),
-                                             instant->dt, instant->told_at, job_.options.moving);
-    constant_velocity_.insert(constant_velocity_.end(), rows.begin(), rows.end());
-    instants_.push_back(std::move(*instant));
-  }
-
-  void judge_by_labels() {
-    const auto judge = [this](Row row, const std::vector<ReportedObject>& told) {
-      result_.labels[row] = score_labels(instants_, told, job_.options.labels);
-    };
-    judge(Row::ego, {});
-    judge(Row::constant_velocity, constant_velocity_);
-    if (paper_) judge(Row::paper, reported_objects(to_json(paper_report_)));
-    if (job_.report != nullptr) judge(Row::ours, job_.report->objects);
+    result_.labels[Row::ego] = labels_->score({});
+    result_.labels[Row::constant_velocity] = labels_->score(labels_->constant_velocity());
+    if (paper_)
+      result_.labels[Row::paper] = labels_->score(reported_objects(to_json(paper_report_)));
+    if (job_.report != nullptr) result_.labels[Row::ours] = labels_->score(job_.report->objects);
   }
 
   void judge(const LidarScan& scan, const LidarScan* paper, const Pictured& pictures) {
@@ -194,7 +175,11 @@ class Walk {
       return;
     }
     ego_rate_ = log_se3(reference->T_ego) / dt;
-    keep_in_scope(*reference, key_->scan, cameras_, job_.options);
+    if (key_->last_motions) {
+      key_->last_motions->find(key_->objects, reference->indices, key_->scan);
+      for (std::size_t i = 0; i < reference->indices.size(); ++i)
+        reference->objects[i].last_motion = key_->objects[reference->indices[i]].last_motion;
+    }
     const LidarScan real = std::move(reference->scan);
     const ScanSet scans{key_->scan, scan, real, paper};
     result_.scans.push_back(evaluate_scan(scans, std::move(*reference), cameras_, job_.options));
@@ -202,19 +187,19 @@ class Walk {
   }
 
   std::optional<InstantReference> reference_at(Stamp stamp) {
-    const auto around = references_.around(stamp, key_->scan.stamp);
+    const auto around = references_->around(stamp, key_->scan.stamp);
     if (!around) return {};
-    if (truth_) return reference_by_truth(*truth_, key_->scan, key_->objects, *around, stamp);
-    return reference_by_registration(*key_->motions, key_->scan, key_->objects, *around, stamp,
-                                     ego_rate_);
+    const InstantRequest request{key_->scan, key_->objects, *around, stamp, cameras_, job_.options};
+    return truth_ ? reference_by_truth(*truth_, request)
+                  : reference_by_registration(*key_->motions, request, ego_rate_);
   }
 
   const EvaluationJob& job_;
   LogResult& result_;
   std::vector<Camera> cameras_;
-  std::vector<Stamp> real_stamps_;
-  ReferenceScans references_;
+  std::optional<ReferenceScans> references_;  ///< none: by labels alone
   std::optional<Truth> truth_;
+  std::optional<LabelJudge> labels_;
   DensifyReport paper_report_;
   std::optional<Densification> paper_;
   std::unique_ptr<KeyScan> key_;
@@ -222,8 +207,6 @@ class Walk {
   std::vector<LidarScan> papers_;
   Pictured pictures_;
   Twist ego_rate_ = Twist::Zero();  ///< per second, of the last ego-motion: the next one's guess
-  std::vector<LabelledInstant> instants_;
-  std::vector<ReportedObject> constant_velocity_;
 };
 
 void feed_entry(const RawlogEntry& entry, Walk& walk) {
@@ -239,7 +222,8 @@ void feed_entry(const RawlogEntry& entry, Walk& walk) {
 
 LogResult evaluate_log(const EvaluationJob& job, const std::function<void(double)>& progress) {
   LogIndex input = whole_index(job.input);
-  const LogIndex reference = whole_index(job.reference);
+  std::optional<LogIndex> reference;
+  if (!job.reference.empty()) reference = whole_index(job.reference);
   take_poses_from_file(job.paper.config, job.paper.rig, input);
   LogResult result;
   result.input = job.input;
@@ -249,14 +233,14 @@ LogResult evaluate_log(const EvaluationJob& job, const std::function<void(double
   result.tolerance_s = job.tolerance_s;
   result.has_truth = !job.truth_objects.empty();
   if (job.options.protocol) result.protocol = job.options.protocol->name;
-  Walk walk(job, input, reference, result);
+  Walk walk(job, input, reference ? &*reference : nullptr, result);
   RawlogReader reader(job.input);
   while (const auto entry = reader.next()) {
     feed_entry(*entry, walk);
     progress(reader.progress());
   }
   walk.finish();
-  if (result.scans.empty())
+  if (result.scans.empty() && reference)
     throw std::runtime_error(job.reference + ": none of its scans lies within " +
                              std::to_string(job.tolerance_s * 1e3) + " ms of one of the " +
                              std::to_string(result.num_virtual) + " virtual scans of " + job.input);

@@ -54,6 +54,7 @@ struct ObjectReference {
   std::string id, class_name;
   std::vector<int> points;  ///< indices into the key scan
   std::optional<LastMotion> last_motion;
+  bool last_motion_sought = false;
   ReferenceMotion motion;
   bool moving = false;
   double speed = 0;      ///< m/s over ground
@@ -147,7 +148,7 @@ struct EvaluationJob {
   std::string reference, input;
   std::string label;                  ///< empty: the one that has virtual scans
   std::string truth_objects;          ///< empty: none
-  double tolerance_s = 0.06;          ///< to the nearest withheld scan
+  double tolerance_s = 0.1;           ///< to the nearest withheld scan
   const RunReport* report = nullptr;  ///< of the densification; null: row `ours` is not labelled
   bool paper_row = true;
   DensifyJob paper;  ///< settings of the `paper` row

@@ -7,9 +7,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "key_objects.h"
 #include "lidar_upsampling/objects/ground.h"
 #include "lidar_upsampling/registration/scan_registration.h"
-#include "lidar_upsampling/vision/projection.h"
 
 namespace lidar_upsampling {
 
@@ -25,6 +25,7 @@ constexpr double kBeside_m = 0.3;
 struct Between {
   const ScanMotions* from = nullptr;  ///< null: the key scan
   const ScanMotions* to = nullptr;
+  const LidarScan *from_scan = nullptr, *to_scan = nullptr;
   double share = 1;  ///< of the way; above one beyond the last scan
   double gap_s = 0;
 };
@@ -47,12 +48,29 @@ Pose object_at(const Between& between, std::size_t i, const Pose& T_ego) {
   return T_ego * interpolated(from, over_ground(*between.to), between.share);
 }
 
-double sigma_at(const Between& between, std::size_t i) {
+/// With what a constant velocity between the two does not know of braking and turning.
+double interpolated_sigma(const Between& between, double from, double to) {
   const double u = between.share;
-  const double from = between.from != nullptr ? between.from->objects[i].sigma_m : 0;
   const double manoeuvre =
       0.5 * kManoeuvre_mps2 * std::abs(u * (1 - u)) * between.gap_s * between.gap_s;
-  return std::hypot((1 - u) * from, u * between.to->objects[i].sigma_m, manoeuvre);
+  return std::hypot((1 - u) * from, u * to, manoeuvre);
+}
+
+double sigma_at(const Between& between, std::size_t i) {
+  const double from = between.from != nullptr ? between.from->objects[i].sigma_m : 0;
+  return interpolated_sigma(between, from, between.to->objects[i].sigma_m);
+}
+
+/// Of a point that stands, by the ego-motion's registration alone.
+double ego_sigma_at(const Between& between, const Eigen::Vector3d& point) {
+  const auto sigma = [&](const ScanMotions* scan) {
+    if (scan == nullptr) return 0.;
+    Eigen::Matrix<double, 3, 6> by_twist;
+    by_twist << -skew(scan->T_ego * point), Eigen::Matrix3d::Identity();
+    const Eigen::Matrix3d covariance = by_twist * scan->ego_covariance * by_twist.transpose();
+    return std::sqrt(covariance.trace());
+  };
+  return interpolated_sigma(between, sigma(between.from), sigma(between.to));
 }
 
 ObjectReference referenced(const ObjectReference& object, const Between& between, std::size_t i,
@@ -63,10 +81,17 @@ ObjectReference referenced(const ObjectReference& object, const Between& between
     result.excluded = to_string(scan->objects[i].status);
     return result;
   }
-  result.motion.T_lidar_t_lidar_k = object_at(between, i, T_ego);
-  result.motion.sigma_m = sigma_at(between, i);
   // By the longer step, which tells slow ones from standing ones.
   result.moving = between.to->objects[i].moving;
+  const bool at_scan = between.from == nullptr && between.share == 1;
+  if (result.moving || at_scan) {
+    result.motion.T_lidar_t_lidar_k = object_at(between, i, T_ego);
+    result.motion.sigma_m = sigma_at(between, i);
+  } else {
+    // What stands needs no registration of its own, which would scatter by 2 cm.
+    result.motion.T_lidar_t_lidar_k = T_ego;
+    result.motion.sigma_m = ego_sigma_at(between, result.motion.centroid_k);
+  }
   result.speed = ground_speed(result.motion, T_ego, dt);
   return result;
 }
@@ -90,7 +115,7 @@ LidarScan brought_along(const LidarScan& scan, const ScanMotions& motions,
     const ObjectReference& object = reference.objects[i];
     if (!object.moving || !object.excluded.empty()) continue;
     const Eigen::AlignedBox3d room = room_of(object, key);
-    const Pose T_key_scan = motions.objects[i].T_lidar_lidar_k.inverse();
+    const Pose T_key_scan = motions.objects[reference.indices[i]].T_lidar_lidar_k.inverse();
     const Pose T_own = object.motion.T_lidar_t_lidar_k * T_key_scan;
     for (std::size_t j = 0; j < scan.size(); ++j) {
       const Eigen::Vector3d point = scan.points[j].cast<double>();
@@ -108,9 +133,9 @@ Surface surface_to_judge_by(std::vector<Eigen::Vector3f> points) {
   return Surface(std::move(points), options);
 }
 
-std::optional<Between> between_scans(RegisteredMotions& motions, const LidarScan& key,
-                                     const ScansAround& around, Stamp stamp,
+std::optional<Between> between_scans(RegisteredMotions& motions, const InstantRequest& request,
                                      const Twist& ego_rate) {
+  const auto& [key, objects, around, stamp, cameras, options] = request;
   Between between;
   const bool has_before = around.before != nullptr && around.before->stamp > key.stamp;
   const LidarScan* last = around.after != nullptr ? around.after : around.before;
@@ -119,10 +144,12 @@ std::optional<Between> between_scans(RegisteredMotions& motions, const LidarScan
   if (has_before && around.after != nullptr) {
     between.from = motions.to(*around.before, ego_rate);
     if (between.from == nullptr) return {};
+    between.from_scan = around.before;
     from = around.before->stamp;
   }
   between.to = motions.to(*last, ego_rate);
   if (between.to == nullptr) return {};
+  between.to_scan = last;
   between.gap_s = seconds_between(from, last->stamp);
   between.share = seconds_between(from, stamp) / between.gap_s;
   return between;
@@ -134,95 +161,82 @@ const ScanMotions* RegisteredMotions::to(const LidarScan& scan, const Twist& ego
   const auto [found, is_new] = known_.emplace(scan.stamp, std::nullopt);
   if (is_new) {
     const double dt = seconds_between(key_.stamp, scan.stamp);
-    found->second = registered(scan, exp_se3(Twist(dt * ego_rate)));
+    if (const auto ego = register_scans(key_.points, scan.points, exp_se3(Twist(dt * ego_rate)))) {
+      found->second.emplace(Known{{ego->T_target_source, ego->covariance, {}},
+                                  surface_to_judge_by(without_ground(scan))});
+      found->second->motions.objects.resize(objects_.size());
+    }
   }
-  return found->second ? &*found->second : nullptr;
+  return found->second ? &found->second->motions : nullptr;
 }
 
-std::optional<ScanMotions> RegisteredMotions::registered(const LidarScan& scan,
-                                                         const Pose& T_ego_guess) const {
-  const auto ego = register_scans(key_.points, scan.points, T_ego_guess);
-  if (!ego) return {};
-  ScanMotions motions;
-  motions.T_ego = ego->T_target_source;
-  motions.objects.resize(objects_.size());
+void RegisteredMotions::find(const LidarScan& scan, const std::vector<int>& which) {
+  Known& known = *known_.at(scan.stamp);
+  const Pose& T_ego = known.motions.T_ego;
   const double dt = seconds_between(key_.stamp, scan.stamp);
-  const Surface surface = surface_to_judge_by(without_ground(scan));
-  tbb::parallel_for(std::size_t{0}, objects_.size(), [&](std::size_t i) {
-    const auto found = register_object(points_at(key_, objects_[i].points), surface,
-                                       {motions.T_ego, Pose::Identity()}, options_.registration);
+  tbb::parallel_for(std::size_t{0}, which.size(), [&](std::size_t i) {
+    const ObjectReference& object = objects_[which[i]];
+    ScanMotions::Object& result = known.motions.objects[which[i]];
+    if (result.known) return;
+    const auto found = register_object(points_at(key_, object.points), known.surface,
+                                       {T_ego, Pose::Identity()}, options_.registration);
     // Repeated scans of parked cars scatter by 2 cm, whatever the registration says of itself.
-    const ReferenceMotion motion{objects_[i].motion.centroid_k, found.T_target_object,
+    const ReferenceMotion motion{object.motion.centroid_k, found.T_target_object,
                                  std::hypot(0.02, found.spread_m)};
-    motions.objects[i] = {found.status, motion.T_lidar_t_lidar_k, motion.sigma_m,
-                          is_moving(motion, motions.T_ego, dt, options_.moving)};
+    result = {true, found.status, motion.T_lidar_t_lidar_k, motion.sigma_m,
+              is_moving(motion, T_ego, dt, options_.moving)};
   });
-  return motions;
 }
 
-std::optional<InstantReference> reference_by_truth(const Truth& truth, const LidarScan& key,
-                                                   const std::vector<ObjectReference>& objects,
-                                                   const ScansAround& around, Stamp stamp) {
-  const auto T_ego = true_ego_motion(truth, key, stamp);
+std::optional<InstantReference> reference_by_truth(const Truth& truth,
+                                                   const InstantRequest& request) {
+  const LidarScan& key = request.key;
+  const auto T_ego = true_ego_motion(truth, key, request.stamp);
   if (!T_ego) return {};
-  InstantReference reference{{}, *T_ego, {}, around.nearest->stamp != stamp, true};
-  for (const ObjectReference& object : objects) {
+  const LidarScan& nearest = *request.around.nearest;
+  InstantReference reference;
+  reference.T_ego = *T_ego;
+  reference.by_truth = true;
+  reference.interpolated = nearest.stamp != request.stamp;
+  for (const int i : in_scope(request.objects, key, *T_ego, request.cameras, request.options)) {
+    const ObjectReference& object = request.objects[i];
     const auto box = std::find_if(truth.objects.begin(), truth.objects.end(),
                                   [&](const TrueObject& other) { return other.id == object.id; });
-    const auto motion = true_object_motion(truth, *box, key, stamp);
+    const auto motion = true_object_motion(truth, *box, key, request.stamp);
     if (!motion) continue;
+    reference.indices.push_back(i);
     reference.objects.push_back(object);
     ObjectReference& placed = reference.objects.back();
     placed.motion = {object.motion.centroid_k, *motion, 0};
-    placed.moving = box->moves_at(stamp);
-    placed.speed = ground_speed(placed.motion, *T_ego, seconds_between(key.stamp, stamp));
+    placed.moving = box->moves_at(request.stamp);
+    placed.speed = ground_speed(placed.motion, *T_ego, seconds_between(key.stamp, request.stamp));
   }
-  reference.scan =
-      reference.interpolated ? brought_to(truth, *around.nearest, stamp) : *around.nearest;
+  reference.scan = reference.interpolated ? brought_to(truth, nearest, request.stamp) : nearest;
   return reference;
 }
 
-std::optional<InstantReference> reference_by_registration(
-    RegisteredMotions& motions, const LidarScan& key, const std::vector<ObjectReference>& objects,
-    const ScansAround& around, Stamp stamp, const Twist& ego_rate) {
-  const auto between = between_scans(motions, key, around, stamp, ego_rate);
+std::optional<InstantReference> reference_by_registration(RegisteredMotions& motions,
+                                                          const InstantRequest& request,
+                                                          const Twist& ego_rate) {
+  const auto between = between_scans(motions, request, ego_rate);
   if (!between) return {};
+  const LidarScan& nearest = *request.around.nearest;
+  const ScanMotions* to_nearest = motions.to(nearest, ego_rate);
+  if (to_nearest == nullptr) return {};
   InstantReference reference;
-  reference.interpolated = around.nearest->stamp != stamp;
+  reference.interpolated = nearest.stamp != request.stamp;
   reference.T_ego = ego_at(*between);
-  const double dt = seconds_between(key.stamp, stamp);
-  for (std::size_t i = 0; i < objects.size(); ++i)
-    reference.objects.push_back(referenced(objects[i], *between, i, reference.T_ego, dt));
-  const ScanMotions* nearest = motions.to(*around.nearest, ego_rate);
-  if (nearest == nullptr) return {};
+  reference.indices =
+      in_scope(request.objects, request.key, reference.T_ego, request.cameras, request.options);
+  for (const LidarScan* scan : {between->from_scan, between->to_scan, &nearest})
+    if (scan != nullptr) motions.find(*scan, reference.indices);
+  const double dt = seconds_between(request.key.stamp, request.stamp);
+  for (const int i : reference.indices)
+    reference.objects.push_back(referenced(request.objects[i], *between, i, reference.T_ego, dt));
   reference.scan = reference.interpolated
-                       ? brought_along(*around.nearest, *nearest, reference, key, stamp)
-                       : *around.nearest;
+                       ? brought_along(nearest, *to_nearest, reference, request.key, request.stamp)
+                       : nearest;
   return reference;
-}
-
-bool in_view(const Camera& camera, const LidarScan& scan, const Eigen::Vector3d& point_in_lidar) {
-  const Eigen::Vector3d in_camera =
-      camera.T_vehicle_camera.inverse() * scan.T_vehicle_lidar * point_in_lidar;
-  return project(camera.model, in_camera).has_value();
-}
-
-bool in_view(const std::vector<Camera>& cameras, const LidarScan& scan,
-             const Eigen::Vector3d& point_in_lidar) {
-  return std::any_of(cameras.begin(), cameras.end(),
-                     [&](const Camera& camera) { return in_view(camera, scan, point_in_lidar); });
-}
-
-void keep_in_scope(InstantReference& reference, const LidarScan& key,
-                   const std::vector<Camera>& cameras, const EvaluationOptions& options) {
-  const auto out_of_scope = [&](const ObjectReference& object) {
-    const Eigen::Vector3d& centre = object.motion.centroid_k;
-    const bool seen =
-        options.all_around || cameras.empty() || in_view(cameras, key, reference.T_ego * centre);
-    return !seen || centre.head<2>().norm() > options.max_range_m;
-  };
-  auto& objects = reference.objects;
-  objects.erase(std::remove_if(objects.begin(), objects.end(), out_of_scope), objects.end());
 }
 
 }  // namespace lidar_upsampling

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "evaluation.h"
+#include "lidar_upsampling/registration/surface.h"
 #include "scan_feed.h"
 
 namespace lidar_upsampling {
@@ -16,6 +17,7 @@ struct InstantReference {
   LidarScan scan;                        ///< the nearest withheld scan, brought to the instant
   Pose T_ego = Pose::Identity();         ///< T_lidar_t_lidar_k
   std::vector<ObjectReference> objects;  ///< in view and within range
+  std::vector<int> indices;              ///< of each among the key scan's
   bool interpolated = false;
   bool by_truth = false;
 };
@@ -23,7 +25,9 @@ struct InstantReference {
 /// The key scan's motions to another scan, by registration.
 struct ScanMotions {
   Pose T_ego = Pose::Identity();
+  Matrix6d ego_covariance = Matrix6d::Zero();  ///< of a Twist on its left
   struct Object {
+    bool known = false;  ///< has been registered
     RegistrationStatus status = RegistrationStatus::too_few_points;
     Pose T_lidar_lidar_k = Pose::Identity();
     double sigma_m = 0;
@@ -32,8 +36,8 @@ struct ScanMotions {
   std::vector<Object> objects;
 };
 
-/// @brief One key scan's objects, and where registration to the scans around finds them. Each scan
-/// is registered to once, however many virtual scans lie beside it.
+/// @brief One key scan's objects, and where registration to the scans around finds them. Each is
+/// registered to a scan once, however many virtual scans lie beside it.
 class RegisteredMotions {
  public:
   /// @param objects of the key scan; both must outlive this.
@@ -41,35 +45,45 @@ class RegisteredMotions {
                     const EvaluationOptions& options)
       : key_(key), objects_(objects), options_(options) {}
 
+  /// @brief The ego-motion alone; objects as far as they are known.
   /// @param ego_rate per second: where the registration of the ego-motion starts.
   /// @return null where the ego-motion is not found.
   [[nodiscard]] const ScanMotions* to(const LidarScan& scan, const Twist& ego_rate);
 
+  /// Registers those of the objects that are not known yet to a scan that to() knows.
+  void find(const LidarScan& scan, const std::vector<int>& which);
+
  private:
-  [[nodiscard]] std::optional<ScanMotions> registered(const LidarScan& scan,
-                                                      const Pose& T_ego_guess) const;
+  struct Known {
+    ScanMotions motions;
+    Surface surface;  // to judge by
+  };
 
   const LidarScan& key_;
   const std::vector<ObjectReference>& objects_;
   const EvaluationOptions& options_;
-  std::map<Stamp, std::optional<ScanMotions>> known_;
+  std::map<Stamp, std::optional<Known>> known_;
+};
+
+/// What an instant's reference is made for and from.
+struct InstantRequest {
+  const LidarScan& key;
+  const std::vector<ObjectReference>& objects;  ///< of the key scan
+  const ScansAround& around;
+  Stamp stamp;
+  const std::vector<Camera>& cameras;
+  const EvaluationOptions& options;
 };
 
 /// @brief The reference by true boxes and poses. @return none where they do not reach.
-[[nodiscard]] std::optional<InstantReference> reference_by_truth(
-    const Truth& truth, const LidarScan& key, const std::vector<ObjectReference>& objects,
-    const ScansAround& around, Stamp stamp);
+[[nodiscard]] std::optional<InstantReference> reference_by_truth(const Truth& truth,
+                                                                 const InstantRequest& request);
 
 /// @brief The reference by registration: ego-motion and objects interpolated between the key scan
 /// and the scan after it, or two scans, at constant twists over ground; what moves on the scan
 /// itself is brought along by its own motion.
-/// @return none where the ego-motion is not found.
+/// @param ego_rate per second, a guess. @return none where the ego-motion is not found.
 [[nodiscard]] std::optional<InstantReference> reference_by_registration(
-    RegisteredMotions& motions, const LidarScan& key, const std::vector<ObjectReference>& objects,
-    const ScansAround& around, Stamp stamp, const Twist& ego_rate);
-
-/// Leaves out objects out of view or range.
-void keep_in_scope(InstantReference& reference, const LidarScan& key,
-                   const std::vector<Camera>& cameras, const EvaluationOptions& options);
+    RegisteredMotions& motions, const InstantRequest& request, const Twist& ego_rate);
 
 }  // namespace lidar_upsampling

@@ -4,10 +4,12 @@
 
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "lidar_upsampling/objects/detector.h"
 #include "lidar_upsampling/objects/scene_segments.h"
+#include "lidar_upsampling/vision/projection.h"
 
 namespace lidar_upsampling {
 
@@ -75,26 +77,57 @@ std::vector<ObjectReference> objects_by_truth(const LidarScan& key, const Truth&
   return objects;
 }
 
-void find_last_motions(std::vector<ObjectReference>& objects, const LidarScan& key,
-                       const Surface& previous, const Pose& T_previous_key, double dt) {
-  tbb::parallel_for(std::size_t{0}, objects.size(), [&](std::size_t i) {
-    if (!objects[i].excluded.empty()) return;
-    const auto found = register_object(points_at(key, objects[i].points), previous,
-                                       {T_previous_key, Pose::Identity()});
+bool in_view(const Camera& camera, const LidarScan& scan, const Eigen::Vector3d& point_in_lidar) {
+  const Eigen::Vector3d in_camera =
+      camera.T_vehicle_camera.inverse() * scan.T_vehicle_lidar * point_in_lidar;
+  return project(camera.model, in_camera).has_value();
+}
+
+bool in_view(const std::vector<Camera>& cameras, const LidarScan& scan,
+             const Eigen::Vector3d& point_in_lidar) {
+  return std::any_of(cameras.begin(), cameras.end(),
+                     [&](const Camera& camera) { return in_view(camera, scan, point_in_lidar); });
+}
+
+std::vector<int> in_scope(const std::vector<ObjectReference>& objects, const LidarScan& key,
+                          const Pose& T_ego, const std::vector<Camera>& cameras,
+                          const EvaluationOptions& options) {
+  std::vector<int> which;
+  for (std::size_t i = 0; i < objects.size(); ++i) {
+    const Eigen::Vector3d& centre = objects[i].motion.centroid_k;
+    const bool seen =
+        options.all_around || cameras.empty() || in_view(cameras, key, T_ego * centre);
+    if (seen && centre.head<2>().norm() <= options.max_range_m)
+      which.push_back(static_cast<int>(i));
+  }
+  return which;
+}
+
+LastMotions::LastMotions(const LidarScan& previous, const Pose& T_previous_key, double dt)
+    : previous_(without_ground(previous)), T_previous_key_(T_previous_key), dt_(dt) {}
+
+void LastMotions::find(std::vector<ObjectReference>& objects, const std::vector<int>& which,
+                       const LidarScan& key) const {
+  tbb::parallel_for(std::size_t{0}, which.size(), [&](std::size_t i) {
+    ObjectReference& object = objects[which[i]];
+    if (object.last_motion_sought || !object.excluded.empty()) return;
+    object.last_motion_sought = true;
+    const auto found = register_object(points_at(key, object.points), previous_,
+                                       {T_previous_key_, Pose::Identity()});
     if (found.status != RegistrationStatus::reliable) return;
     // Back over ground from the key scan to the one before it, both in the frame of the key scan.
-    const Pose T_back = T_previous_key.inverse() * found.T_target_object;
-    objects[i].last_motion =
-        LastMotion{-log_se3(T_back) / dt, dt, std::hypot(0.02, found.spread_m)};
+    const Pose T_back = T_previous_key_.inverse() * found.T_target_object;
+    object.last_motion = LastMotion{-log_se3(T_back) / dt_, dt_, std::hypot(0.02, found.spread_m)};
   });
 }
 
 std::vector<ReportedObject> constant_velocity_rows(const std::vector<ObjectReference>& objects,
-                                                   const Pose& T_ego, double dt,
-                                                   std::int64_t told_at,
+                                                   const std::vector<int>& which, const Pose& T_ego,
+                                                   double dt, std::int64_t told_at,
                                                    const MovingOptions& options) {
   std::vector<ReportedObject> rows;
-  for (const ObjectReference& object : objects) {
+  for (const int i : which) {
+    const ObjectReference& object = objects[i];
     if (!object.last_motion) continue;
     const auto& [per_second, dt_last, sigma_m] = *object.last_motion;
     const Eigen::Vector3d& centre = object.motion.centroid_k;

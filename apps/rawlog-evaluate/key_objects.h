@@ -16,16 +16,34 @@ namespace lidar_upsampling {
 [[nodiscard]] std::vector<ObjectReference> objects_by_truth(const LidarScan& key,
                                                             const Truth& truth, int min_points);
 
-/// @brief What row `constant-velocity` goes by: each object registered to the scan before.
-/// @param previous off the ground. @param T_previous_key ego-motion, lidar frames.
-/// @param dt s, between the scans.
-void find_last_motions(std::vector<ObjectReference>& objects, const LidarScan& key,
-                       const Surface& previous, const Pose& T_previous_key, double dt);
+/// @brief Those that a camera sees at an instant (unless `all_around`), within range.
+/// @param T_ego T_lidar_t_lidar_k. @return indices of `objects`.
+[[nodiscard]] std::vector<int> in_scope(const std::vector<ObjectReference>& objects,
+                                        const LidarScan& key, const Pose& T_ego,
+                                        const std::vector<Camera>& cameras,
+                                        const EvaluationOptions& options);
+
+/// @brief What row `constant-velocity` goes by: objects of a key scan registered to the scan
+/// before.
+class LastMotions {
+ public:
+  /// @param T_previous_key ego-motion, lidar frames. @param dt s, between the scans.
+  LastMotions(const LidarScan& previous, const Pose& T_previous_key, double dt);
+
+  /// Finds those that are not known yet.
+  void find(std::vector<ObjectReference>& objects, const std::vector<int>& which,
+            const LidarScan& key) const;
+
+ private:
+  Surface previous_;  // off the ground
+  Pose T_previous_key_;
+  double dt_;
+};
 
 /// @brief What row `constant-velocity` would tell of these objects at an instant.
 /// @param T_ego T_lidar_t_lidar_k. @param dt s, since the key scan.
 [[nodiscard]] std::vector<ReportedObject> constant_velocity_rows(
-    const std::vector<ObjectReference>& objects, const Pose& T_ego, double dt, std::int64_t told_at,
-    const MovingOptions& options);
+    const std::vector<ObjectReference>& objects, const std::vector<int>& which, const Pose& T_ego,
+    double dt, std::int64_t told_at, const MovingOptions& options);
 
 }  // namespace lidar_upsampling

@@ -25,15 +25,15 @@ struct Request {
   std::string json, csv, html, report, config, protocol;
   std::vector<std::string> sets;
   bool no_paper = false;
-  double tolerance_ms = 60;
+  double tolerance_ms = 100;
 };
 
 void add_options(CLI::App& app, Request& request) {
   EvaluationJob& job = request.job;
   auto* const reference =
       app.add_option("--reference", request.references,
-                     "the full log, or the simulator's truth; without it, --html and --report tell "
-                     "of coverage, tracks and times")
+                     "the full log, or the simulator's truth; without it, --labels judge what "
+                     "--report tells, --html and --report tell of coverage, tracks and times")
           ->expected(1)
           ->take_all();
   app.add_option("--input", request.inputs,
@@ -41,9 +41,8 @@ void add_options(CLI::App& app, Request& request) {
       ->required()
       ->expected(1)
       ->take_all();
-  app.add_option("--json", request.json, "everything, per scan and object")->needs(reference);
-  app.add_option("--csv", request.csv, "the headline as row,figure,value: for tables over logs")
-      ->needs(reference);
+  app.add_option("--json", request.json, "everything, per scan and object");
+  app.add_option("--csv", request.csv, "the headline as row,figure,value: for tables over logs");
   app.add_option("--html", request.html,
                  "one page for people: tables, plots, and pictures of the worst objects");
   app.add_option(
@@ -54,7 +53,6 @@ void add_options(CLI::App& app, Request& request) {
   app.add_option("--truth-objects,--labels", request.truth_objects,
                  "..._objects.csv of rawlog-simulate, an importer or your own (with ..._ego.csv "
                  "beside it): exact truth or people's labels")
-      ->needs(reference)
       ->expected(1)
       ->take_all();
   app.add_option("--max-range", job.options.max_range_m, "of objects, m")
@@ -83,8 +81,11 @@ void add_options(CLI::App& app, Request& request) {
                "leave out row `paper`, which densifies the log anew");
   app.callback([&request] {
     const std::size_t logs = request.inputs.size();
-    if (request.references.empty() && request.html.empty() && request.report.empty())
-      throw CLI::RequiredError("--reference (or --html or --report)");
+    const bool compares = !request.references.empty() || !request.truth_objects.empty();
+    if (!compares && request.html.empty() && request.report.empty())
+      throw CLI::RequiredError("--reference (or --labels, --html or --report)");
+    if (!compares && (!request.json.empty() || !request.csv.empty()))
+      throw CLI::ValidationError("--json, --csv", "need --reference or --labels");
     if (!request.references.empty() && request.references.size() != logs)
       throw CLI::ValidationError("--reference", "each --input needs one");
     if (!request.truth_objects.empty() && request.truth_objects.size() != logs)
@@ -119,7 +120,7 @@ Comparison compare(Request& request, const std::optional<RunReport>& run, bool w
     };
   for (std::size_t i = 0; i < request.inputs.size(); ++i) {
     job.input = request.inputs[i];
-    job.reference = request.references[i];
+    if (!request.references.empty()) job.reference = request.references[i];
     if (!request.truth_objects.empty()) job.truth_objects = request.truth_objects[i];
     Progress progress("evaluating");
     append(comparison.result, evaluate_log(job, std::ref(progress)));
@@ -138,7 +139,8 @@ void evaluate(Request& request) {
   PageContent content;
   content.input = request.inputs.front();
   if (!request.report.empty()) content.run = load_run_report(request.report);
-  if (!request.references.empty()) content.comparison = compare(request, content.run, wants_page);
+  if (!request.references.empty() || !request.truth_objects.empty())
+    content.comparison = compare(request, content.run, wants_page);
   if (const auto& comparison = content.comparison)
     std::cout << to_table(comparison->result, comparison->figures, comparison->protocol);
   if (content.run && content.comparison) {

@@ -189,6 +189,11 @@ std::string to_csv(const LogResult& result, const Figures& figures) {
 
 std::string to_table(const LogResult& result, const Figures& figures,
                      const std::optional<Protocol>& protocol) {
+  if (result.reference.empty()) {
+    std::string table = to_text(result.labels, result.num_unlabelled);
+    for (const std::string& note : result.notes) table += "note: " + note + "\n";
+    return table;
+  }
   std::string table =
       formatted(
           "%s: %d virtual scans, %zu compared, %d left out: no withheld scan within %.0f ms\n",

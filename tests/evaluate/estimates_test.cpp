@@ -5,7 +5,6 @@
 #include <gtest/gtest.h>
 
 #include "key_objects.h"
-#include "lidar_upsampling/objects/ground.h"
 #include "objects/street_scan.h"
 
 namespace lidar_upsampling {
@@ -44,7 +43,7 @@ class Rows : public ::testing::Test {
 
 TEST_F(Rows, constant_velocity_goes_on_as_between_the_last_two_scans) {
   std::vector<ObjectReference> objects{car_};
-  find_last_motions(objects, key_, Surface(without_ground(previous_)), Pose::Identity(), 0.1);
+  LastMotions(previous_, Pose::Identity(), 0.1).find(objects, {0}, key_);
   car_ = objects.front();
   const Estimates rows = estimates({key_, later_, later_});
   ASSERT_TRUE(rows[Row::constant_velocity]);

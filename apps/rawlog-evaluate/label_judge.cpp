@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the lidar_upsampling authors
+#include "label_judge.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace lidar_upsampling {
+
+namespace {
+
+// A virtual scan this near to a real one that the log still holds has nothing withheld to be judged
+// by: people's labels are those of the scans.
+constexpr double kAtRealScan_s = 0.015;
+
+}  // namespace
+
+LabelJudge::LabelJudge(const Truth& truth, const EvaluationOptions& options,
+                       const std::vector<Camera>& cameras, std::vector<Stamp> real_stamps)
+    : truth_(truth), options_(options), cameras_(cameras), real_stamps_(std::move(real_stamps)) {
+  std::sort(real_stamps_.begin(), real_stamps_.end());
+}
+
+void LabelJudge::take_key(const LidarScan& key, const LidarScan* previous) {
+  key_ = &key;
+  clusters_ = objects_by_clusters(key);
+  last_motions_.reset();
+  if (previous == nullptr || !(previous->stamp < key.stamp)) return;
+  if (const auto T_key_previous = true_ego_motion(truth_, *previous, key.stamp))
+    last_motions_.emplace(*previous, T_key_previous->inverse(),
+                          seconds_between(previous->stamp, key.stamp));
+}
+
+bool LabelJudge::at_real_scan(Stamp stamp) const {
+  const auto near = [&](auto real) {
+    return real != real_stamps_.end() && std::abs(seconds_between(*real, stamp)) < kAtRealScan_s;
+  };
+  const auto next = std::lower_bound(real_stamps_.begin(), real_stamps_.end(), stamp);
+  return near(next) || (next != real_stamps_.begin() && near(std::prev(next)));
+}
+
+void LabelJudge::note(Stamp stamp, Stamp told_at) {
+  std::optional<LabelledInstant> instant;
+  if (key_ != nullptr && key_->stamp < stamp && !at_real_scan(stamp))
+    instant = labelled_instant(truth_, *key_, stamp, cameras_, options_.labels);
+  if (!instant) {
+    ++num_unlabelled_;
+    return;
+  }
+  instant->told_at = told_at.time_since_epoch().count();
+  const Pose T_ego = instant->T_lidar_k_lidar_t.inverse();
+  const auto seen = in_scope(clusters_, *key_, T_ego, cameras_, options_);
+  if (last_motions_) last_motions_->find(clusters_, seen, *key_);
+  const auto rows = constant_velocity_rows(clusters_, seen, T_ego, instant->dt, instant->told_at,
+                                           options_.moving);
+  constant_velocity_.insert(constant_velocity_.end(), rows.begin(), rows.end());
+  instants_.push_back(std::move(*instant));
+}
+
+}  // namespace lidar_upsampling
