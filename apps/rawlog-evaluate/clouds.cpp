@@ -5,6 +5,7 @@
 #include <tbb/parallel_for.h>
 
 #include <limits>
+#include <optional>
 
 #include "lidar_upsampling/metrics/chamfer.h"
 
@@ -19,10 +20,16 @@ Points moved(const Points& points, const Pose& T) {
   return result;
 }
 
-Points seen_only(const Points& points, const LidarScan& scan, const std::vector<Camera>& cameras) {
+Points seen_only(const Points& points, const LidarScan& scan, const std::vector<Camera>& cameras,
+                 std::vector<bool>* of_object = nullptr) {
   Points result;
-  for (const auto& point : points)
-    if (in_view(cameras, scan, point.cast<double>())) result.push_back(point);
+  std::vector<bool> kept;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (!in_view(cameras, scan, points[i].cast<double>())) continue;
+    result.push_back(points[i]);
+    if (of_object != nullptr) kept.push_back((*of_object)[i]);
+  }
+  if (of_object != nullptr) *of_object = std::move(kept);
   return result;
 }
 
@@ -52,10 +59,11 @@ Points part_of(const Points& cloud, const std::vector<bool>& of_object, bool obj
 class SharedScene {
  public:
   /// @param ego the whole scan moved by the ego-motion.
-  SharedScene(const Points& ego, std::vector<bool> of_object, const Points& reference,
+  /// @param of_object its points that rows move otherwise.
+  SharedScene(const Points& ego, const std::vector<bool>& of_object, const Points& reference,
               const PointIndex& reference_index)
-      : of_object_(std::move(of_object)), reference_(reference), reference_index_(reference_index) {
-    const Points scene = part_of(ego, of_object_, false);
+      : reference_(reference), reference_index_(reference_index) {
+    const Points scene = part_of(ego, of_object, false);
     forward_ = nearest_sq_distances(scene, reference_index);
     if (scene.empty())
       backward_.assign(reference.size(), std::numeric_limits<float>::max());
@@ -63,8 +71,10 @@ class SharedScene {
       backward_ = nearest_sq_distances(reference, PointIndex(scene));
   }
 
-  [[nodiscard]] Chamfer chamfer(const Points& cloud) const {
-    const Points objects = part_of(cloud, of_object_, true);
+  [[nodiscard]] bool empty() const { return forward_.empty(); }
+
+  /// @param objects where a row puts the others. @throw std::invalid_argument nothing at all.
+  [[nodiscard]] Chamfer chamfer(const Points& objects) const {
     if (objects.empty()) return chamfer_of(forward_, backward_);
     std::vector<float> forward = nearest_sq_distances(objects, reference_index_);
     forward.insert(forward.end(), forward_.begin(), forward_.end());
@@ -72,7 +82,6 @@ class SharedScene {
   }
 
  private:
-  std::vector<bool> of_object_;
   const Points& reference_;
   const PointIndex& reference_index_;
   std::vector<float> forward_, backward_;
@@ -113,21 +122,33 @@ PerRow<Points> whole_clouds(const RowSources& sources, const std::vector<ObjectR
 void measure_clouds(const PerRow<Points>& clouds, const LidarScan& reference,
                     const std::vector<Camera>& cameras, ScanResult& result) {
   if (reference.points.empty()) return;
+  const Points& ego = clouds[Row::ego];
   const PointIndex index(reference.points);
+  const std::vector<bool> of_object = points_of_objects(ego.size(), result.objects);
+  const SharedScene scene(ego, of_object, reference.points, index);
   const Points seen = seen_only(reference.points, reference, cameras);
   const PointIndex seen_index(seen);
-  const SharedScene scene(clouds[Row::ego],
-                          points_of_objects(clouds[Row::ego].size(), result.objects),
-                          reference.points, index);
+  std::vector<bool> seen_of_object = of_object;
+  const Points ego_seen = seen_only(ego, reference, cameras, &seen_of_object);
+  std::optional<SharedScene> seen_scene;
+  if (!seen.empty()) seen_scene.emplace(ego_seen, seen_of_object, seen, seen_index);
   // Nothing is sampled here: the floor is zero, and left out.
   tbb::parallel_for(std::size_t{1}, kRows.size(), [&](std::size_t i) {
     const Row row = kRows[i];
     if (clouds[row].empty()) return;
-    CloudResult cloud{shares_scene(row) ? scene.chamfer(clouds[row])
-                                        : chamfer_to(clouds[row], reference.points, index),
-                      std::nullopt};
-    const Points own_seen = seen_only(clouds[row], reference, cameras);
-    if (!seen.empty() && !own_seen.empty()) cloud.in_view = chamfer_to(own_seen, seen, seen_index);
+    CloudResult cloud;
+    if (shares_scene(row)) {
+      const Points objects = part_of(clouds[row], of_object, true);
+      cloud.full = scene.chamfer(objects);
+      const Points objects_seen = seen_only(objects, reference, cameras);
+      if (seen_scene && !(seen_scene->empty() && objects_seen.empty()))
+        cloud.in_view = seen_scene->chamfer(objects_seen);
+    } else {
+      cloud.full = chamfer_to(clouds[row], reference.points, index);
+      const Points own_seen = seen_only(clouds[row], reference, cameras);
+      if (!seen.empty() && !own_seen.empty())
+        cloud.in_view = chamfer_to(own_seen, seen, seen_index);
+    }
     result.clouds[row] = cloud;
   });
 }

@@ -19,6 +19,7 @@
 #include "lidar_upsampling/registration/scan_registration.h"
 #include "log_streams.h"
 #include "rawlog-densify/densification.h"
+#include "scan_queue.h"
 
 namespace lidar_upsampling {
 
@@ -39,7 +40,10 @@ class Walk {
   /// @param reference null: by labels alone.
   Walk(const EvaluationJob& job, const LogIndex& input, const LogIndex* reference,
        LogResult& result)
-      : job_(job), result_(result), cameras_(calibrated_cameras(input)) {
+      : job_(job),
+        result_(result),
+        cameras_(calibrated_cameras(input)),
+        queue_(job_, cameras_, result_.scans) {
     const std::vector<Stamp>& real = input.find(result.label, StreamKind::lidar)->stamps;
     if (reference != nullptr) {
       const StreamInfo& stream = reference_stream(*reference, result.label);
@@ -78,6 +82,7 @@ class Walk {
   void finish() {
     if (paper_) take(paper_->flush());
     judge_waiting();
+    queue_.finish();
     if (labels_) judge_by_labels();
   }
 
@@ -100,7 +105,7 @@ class Walk {
 
   void take_key(LidarScan scan) {
     if (scan.points.empty()) return;
-    const auto previous = std::exchange(key_, std::make_unique<KeyScan>());
+    const auto previous = std::exchange(key_, std::make_shared<KeyScan>());
     key_->scan = std::move(scan);
     const LidarScan& key = key_->scan;
     if (labels_) labels_->take_key(key, previous ? &previous->scan : nullptr);
@@ -130,23 +135,23 @@ class Walk {
     return found ? std::make_optional(found->T_target_source) : std::nullopt;
   }
 
-  [[nodiscard]] const LidarScan* paper_at(Stamp stamp) const {
-    for (const LidarScan& scan : papers_)
-      if (scan.stamp == stamp) return &scan;
-    return nullptr;
+  [[nodiscard]] std::optional<LidarScan> paper_at(Stamp stamp) {
+    for (LidarScan& scan : papers_)
+      if (scan.stamp == stamp) return std::move(scan);
+    return {};
   }
 
   // Those of the present key scan: both runs have said all about it.
   void judge_waiting() {
     for (Waiting& waiting : ours_) {
-      const LidarScan* paper = paper_at(waiting.scan.stamp);
+      std::optional<LidarScan> paper = paper_at(waiting.scan.stamp);
       const Stamp told_at = waiting.scan.stamp;
       // The instant that the scan is of, where the settings tell that the images' stamps lie
       // beside.
       waiting.scan.stamp =
           shifted(waiting.scan.stamp, -1e-3 * job_.paper.config.timing.camera_time_offset_ms);
       if (labels_) labels_->note(waiting.scan.stamp, told_at);
-      if (references_) judge(waiting.scan, paper, waiting.pictures);
+      if (references_) judge(waiting, std::move(paper));
     }
     ours_.clear();
     papers_.clear();
@@ -166,7 +171,8 @@ class Walk {
     if (job_.report != nullptr) result_.labels[Row::ours] = labels_->score(job_.report->objects);
   }
 
-  void judge(const LidarScan& scan, const LidarScan* paper, const Pictured& pictures) {
+  void judge(Waiting& waiting, std::optional<LidarScan> paper) {
+    const LidarScan& scan = waiting.scan;
     const double dt = key_ ? seconds_between(key_->scan.stamp, scan.stamp) : 0;
     std::optional<InstantReference> reference;
     if (dt > 0) reference = reference_at(scan.stamp);
@@ -180,10 +186,8 @@ class Walk {
       for (std::size_t i = 0; i < reference->indices.size(); ++i)
         reference->objects[i].last_motion = key_->objects[reference->indices[i]].last_motion;
     }
-    const LidarScan real = std::move(reference->scan);
-    const ScanSet scans{key_->scan, scan, real, paper};
-    result_.scans.push_back(evaluate_scan(scans, std::move(*reference), cameras_, job_.options));
-    if (job_.on_scan) job_.on_scan(scans, result_.scans.back(), pictures);
+    queue_.add({std::shared_ptr<const LidarScan>(key_, &key_->scan), std::move(waiting.scan),
+                std::move(paper), std::move(*reference), std::move(waiting.pictures)});
   }
 
   std::optional<InstantReference> reference_at(Stamp stamp) {
@@ -202,10 +206,11 @@ class Walk {
   std::optional<LabelJudge> labels_;
   DensifyReport paper_report_;
   std::optional<Densification> paper_;
-  std::unique_ptr<KeyScan> key_;
+  std::shared_ptr<KeyScan> key_;
   std::vector<Waiting> ours_;
   std::vector<LidarScan> papers_;
   Pictured pictures_;
+  ScanQueue queue_;
   Twist ego_rate_ = Twist::Zero();  ///< per second, of the last ego-motion: the next one's guess
 };
 

@@ -5,6 +5,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace lidar_upsampling {
 namespace {
@@ -21,13 +22,16 @@ Sight sight_in(const ObjectFit& fit, const Eigen::Vector3f& place) {
   return fit.clues.seen == nullptr ? Sight::open : fit.clues.seen->at(place);
 }
 
-double score_of(const ObjectFit& fit, const Pose& T_target_object, int stride) {
+double score_of(const ObjectFit& fit, const Pose& T_target_object, int stride, double worse_than) {
   const Eigen::Isometry3f T = T_target_object.cast<float>();
   constexpr auto kFarthest = static_cast<float>(kScoreCut * kScoreCut);
   const double just_covered = fit.options.overlap_distance_m;
   double sum = 0;
   int count = 0, visible = 0;
+  const std::size_t asked = (fit.points.size() + stride - 1) / stride;
+  const double sum_of_worse = worse_than * worse_than * static_cast<double>(asked);
   for (std::size_t i = 0; i < fit.points.size(); i += stride, ++count) {
+    if (sum > sum_of_worse) return std::numeric_limits<double>::infinity();
     const Eigen::Vector3f place = T * fit.points[i];
     const Sight sight = sight_in(fit, place);
     visible += sight == Sight::hidden ? 0 : 1;

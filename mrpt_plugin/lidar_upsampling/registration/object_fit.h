@@ -2,6 +2,8 @@
 // Copyright (c) 2026, the lidar_upsampling authors
 #pragma once
 
+#include <limits>
+
 #include <vector>
 
 #include "lidar_upsampling/registration/object_registration.h"
@@ -28,7 +30,9 @@ constexpr double kScoreCut = 0.5;
 /// just covered: neither for nor much against a place. Where the sensor saw through a point it is
 /// as bad as can be, and so is a place of which too little is visible.
 /// @param stride every so many points are asked.
-[[nodiscard]] double score_of(const ObjectFit& fit, const Pose& T_target_object, int stride = 1);
+/// @param worse_than what is sure to score more than this need not be told how much more.
+[[nodiscard]] double score_of(const ObjectFit& fit, const Pose& T_target_object, int stride = 1,
+                              double worse_than = std::numeric_limits<double>::infinity());
 
 /// @brief The score, with what an unexpected place adds, m.
 [[nodiscard]] double rank_of(const ObjectFit& fit, const Pose& T_target_object, double score);

@@ -24,7 +24,7 @@ Fitted search_start(const ObjectFit& problem) {
   for (int ix = -reach; ix <= reach; ++ix) {
     for (int iy = -reach; iy <= reach; ++iy) {
       const Pose start = shifted_by(problem.T_level, ix * kCell, iy * kCell);
-      const double score = score_of(problem, start, stride);
+      const double score = score_of(problem, start, stride, best.score);
       if (score < best.score) {
         best = {start, score, score};
       }
@@ -44,8 +44,10 @@ Fitted best_fit(const ObjectFit& problem, const std::vector<Pose>& guesses) {
     }
   }
   if (problem.options.search_m <= 0) return best;
+  const Pose start = search_start(problem).T;
+  if (start.isApprox(guesses.front(), 1e-9)) return best;  // has been gone from already
   // A far-off start may land on a neighbour that looks alike: it must be clearly better.
-  const Fitted searched = converge(problem, search_start(problem).T);
+  const Fitted searched = converge(problem, start);
   return searched.rank < 0.8 * best.rank ? searched : best;
 }
 
