@@ -1,35 +1,34 @@
 #!/usr/bin/env bash
-# What the next real scan is worth: mean errors of moving / static objects in both modes, and Chamfer in view of scans that are
-# drawn from the key scan or from both, as a table of share/results.md.
-#   share/offline.sh [folder of 2011_09_26_drive_0052_sync]
-set -euo pipefail
-cd "$(dirname "$0")/.."
-. share/figure.sh
+# What the next real scan is worth: errors of moving objects in both modes, by the simulator's truth. A table of share/results.md.
+#   share/offline.sh
+# Its runs are those of share/ablation.sh with nothing turned over; $OUT, $SEEDS, $JOBS and $SCENARIOS are as there.
+. "$(dirname "$0")/runs.sh"
+read -r -a seeds <<< "${SEEDS:-101}"
+failed=0
 
-mean() {  # <mode> <measure.sh's arguments ...>
-  SET="resample=none carrier=3drangescan mode=$1" bash share/measure.sh "${@:2}" --no-paper > "$out/offline.txt"
-  printf '%s %s\n' "$(figure "$out/offline.txt" "moving objects, position" ours 2)" \
-    "$(figure "$out/offline.txt" "static objects, position" ours 2)"
+runs() {
+  local seed scenario mode
+  for seed in "${seeds[@]}"; do
+    for scenario in ${SCENARIOS:-$(scenarios)}; do
+      for mode in causal offline; do echo "ablation - $mode $scenario $seed"; done
+    done
+  done
 }
-chamfer() {  # <mode> <measure.sh's arguments ...>
-  SET="resample=beam mode=$1" bash share/measure.sh "${@:2}" --no-paper > "$out/offline.txt"
-  figure "$out/offline.txt" Chamfer ours 3
-}
-row() {  # <title> <measure.sh's arguments ...>
-  echo "offline: $1 ..." >&2
-  local causal offline
-  causal="$(mean causal "${@:2}") $(chamfer causal "${@:2}")"
-  offline="$(mean offline "${@:2}") $(chamfer offline "${@:2}")"
-  awk -v title="$1" -v causal="$causal" -v offline="$offline" 'BEGIN {
-    split(causal, c, " "); split(offline, o, " ")
-    printf "| %s | %s | %s | %.2f | %s | %s | %s | %s | %.2f |\n", title, c[1], o[1], o[1] / c[1], c[2], o[2], c[3], o[3], o[3] / c[3] }'
-}
+in_parallel short_run < <(runs)
 
-echo "| | moving: causal | offline | ratio | static: causal | offline | Chamfer in view: causal | offline | ratio |"
+echo "| | movers | mean error, m: causal | offline | ratio | 95 % below, m: causal | offline | false movers per image: causal | offline |"
 echo "|---|---|---|---|---|---|---|---|---|"
-if [ -n "$drive" ]; then
-  for keep in 2 3 4; do row "drive 0052, K = $keep" drive "$drive" "$keep"; done
-fi
-for name in $(scenarios); do
-  row "$name" scenario "$name"
-done
+runs | short_lines | awk -F, '
+  !($3 in seen) { seen[$3] = 1; scenarios[++number] = $3 }
+  { images[$3, $2]++; false_movers[$3, $2] += $11 }
+  $6 > 0 { n[$3, $2]++; movers[$3, $2] += $6; error[$3, $2] += $7; worst[$3, $2] += $8 }
+  END {
+    for (i = 1; i <= number; i++) {
+      c = scenarios[i] SUBSEP "causal"; o = scenarios[i] SUBSEP "offline"
+      if (!n[c] || !n[o]) continue
+      printf "%f\t| %s | %d | %.3f | %.3f | %.2f | %.3f | %.3f | %.2f | %.2f |\n", error[o] / n[o] / (error[c] / n[c]), scenarios[i], \
+        movers[c], error[c] / n[c], error[o] / n[o], error[o] / n[o] / (error[c] / n[c]), worst[c] / n[c], worst[o] / n[o], \
+        false_movers[c] / images[c], false_movers[o] / images[o]
+    }
+  }' | sort -t "$(printf '\t')" -k 1,1gr | cut -f 2
+exit "$failed"

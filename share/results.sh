@@ -1,54 +1,165 @@
 #!/usr/bin/env bash
-# Makes share/results.md: every scenario of the simulator, and a drive of the KITTI raw set where its folder is given.
-#   share/results.sh [folder of 2011_09_26_drive_0052_sync]       logs and reports go to out/results, or $OUT;
-#                                                          with KEEP=1, tables that lie there are not measured anew
-set -euo pipefail
-cd "$(dirname "$0")/.."
-. share/figure.sh
-runs=()
+# Makes share/results.md: every scenario of the simulator, as drawn by several seeds; the real drives and scenes that are found;
+# what each switch and each parameter of the motion estimator is worth.
+#   share/results.sh [folder ...]    folders of, or with, *_sync drives of the KITTI raw set and scenes of DDAD
+# Can be stopped and called again: every run leaves its table in out/results, or $OUT, and what lies there is not measured anew,
+# but for ANEW=1, which keeps the simulated logs only. $SEEDS: those that are drawn, default "101 102 103", which nothing is to be
+# tuned to. $JOBS: runs at a time, default: the cores'. $PAGE: what is made, default share/results.md.
+. "$(dirname "$0")/runs.sh"
+read -r -a seeds <<< "${SEEDS:-101 102 103}"
+page=${PAGE:-$project/share/results.md}
+failed=0
+build=$(build_of_tools)
+if [ -n "${ANEW:-}" ]; then rm -rf "$OUT"/*.{txt,csv,md} "$OUT"/{ablation,sensitivity}; fi
 
-measure() {  # <name> <title> <command's arguments ...>
-  local name=$1 title=$2; shift 2
-  echo "$title ..." >&2
-  [ -n "${KEEP:-}" ] && [ -s "$out/$name.txt" ] || bash share/measure.sh "$@" > "$out/$name.txt"
-  runs+=("$name|$title|share/measure.sh ${*/#"$drive"/2011_09_26_drive_0052_sync}")
+# The runs, as arguments of share/measure.sh: scenarios by seed, and what lies in the folders given.
+drawn() {
+  local name seed
+  for seed in "${seeds[@]}"; do
+    for name in ${SCENARIOS:-$(scenarios)}; do echo "scenario $name $seed"; done
+  done
+}
+real() {
+  local folder keep
+  [ $# -gt 0 ] || return 0
+  for folder in "$@"; do need_folder "$folder" "drives of the KITTI raw data set, or scenes of DDAD"; done
+  find -L "$@" -maxdepth 4 -type d -name '*_sync' | LC_ALL=C sort -u | while read -r folder; do
+    for keep in 2 3; do
+      # Of a clip of five scans there is nothing between if two of three are withheld.
+      [ "$keep" = 2 ] || [ "$(find -L "$folder/velodyne_points" -name '0*.bin' | wc -l)" -gt 10 ] || continue
+      echo "drive $(realpath "$folder") $keep"
+    done
+  done
+  find -L "$@" -maxdepth 4 -name 'scene_*.json' | LC_ALL=C sort -u | while read -r folder; do
+    echo "ddad $(realpath "$(dirname "$folder")")"
+  done
+}
+real "$@" > "$OUT/real.list"
+
+# csv_of <line of runs> -> <run>,<row>,<figure>,<value>
+figures_of() {
+  local words
+  while read -r -a words; do
+    local name
+    name=$(run_name "${words[@]}")
+    [ ! -s "$OUT/$name.csv" ] || awk -v run="$name" -v group="$(title_of "${words[@]}")" '{ print group "," run "," $0 }' "$OUT/$name.csv"
+  done
+}
+title_of() {
+  case $1 in
+    scenario) echo "$2" ;;
+    drive) echo "$(basename "$2"): one scan of $3 kept" | sed 's|^[0-9_]*_drive_\([0-9]*\)_sync:|KITTI drive \1:|' ;;
+    *) basename "$2" ;;
+  esac
 }
 
-if [ -n "$drive" ]; then
-  for keep in 2 3 4; do
-    measure "drive-$keep" "KITTI drive 0052, one scan of $keep kept" drive "$drive" "$keep" --protocol kitti-odometry
-  done
-fi
-for name in $(scenarios); do
-  measure "scenario-$name" "Scenario $name" scenario "$name"
+# Lines of figures_of, one or more runs to a group, as a table; the worst first.
+headline_table() {
+  echo "| | runs | movers | ego, m | const-v, m | paper, m | **ours**, m | ours / best other | ours: 95 % of errors below, m | velocity RMS, m/s | parked told to move | by, m | false movers per image: paper | ours | switches per object | static scene, m |"
+  echo "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|"
+  awk -F, "$statistics"'
+    function mean(row, figure,   key) {
+      key = group SUBSEP row SUBSEP figure
+      return n[key] > 0 ? sum[key] / n[key] : ""
+    }
+    function shown(value, digits) { return value == "" ? "-" : sprintf("%." digits "f", value) }
+    function with_interval(row, figure, digits,   key, half) {
+      key = group SUBSEP row SUBSEP figure
+      half = interval(n[key], sum[key], squares[key])
+      return shown(mean(row, figure), digits) (half < 0 ? "" : sprintf(" ± %." digits "f", half))
+    }
+    { figure = $4; if (NF > 5) next }
+    $3 == "ours" && $4 == "images" { runs[$1]++ }
+    $4 == "movers" { movers[$2 SUBSEP $3] = $5 }
+    # Where nothing moves there is no error of what moves.
+    $4 ~ /^(movers_|velocity_)/ && movers[$2 SUBSEP $3] == 0 { next }
+    { key = $1 SUBSEP $3 SUBSEP $4; n[key]++; sum[key] += $5; squares[key] += $5 * $5 }
+    END {
+      for (group in runs) {
+        best = ""
+        split("ego constant-velocity paper", others, " ")
+        for (i = 1; i <= 3; i++) {
+          value = mean(others[i], "movers_mean_m")
+          if (value != "" && (best == "" || value < best)) best = value
+        }
+        ours = mean("ours", "movers_mean_m")
+        ratio = ours != "" && best > 0 ? ours / best : ""
+        parked = sum[group SUBSEP "ours" SUBSEP "parked"]
+        followed = sum[group SUBSEP "ours" SUBSEP "objects_followed"]
+        printf "%f\t| %s | %d | %d | %s | %s | %s | **%s** | %s | %s | %s | %s | %s | %s | %s | %s | %s |\n", ratio == "" ? -1 : ratio, \
+          group, runs[group], sum[group SUBSEP "ours" SUBSEP "movers"], shown(mean("ego", "movers_mean_m"), 3), \
+          shown(mean("constant-velocity", "movers_mean_m"), 3), with_interval("paper", "movers_mean_m", 3), \
+          with_interval("ours", "movers_mean_m", 3), shown(ratio, 2), with_interval("ours", "movers_p95_m", 3), \
+          with_interval("ours", "velocity_rms_m_s", 2), \
+          parked > 0 ? sprintf("%.1f %% of %d", 100 * sum[group SUBSEP "ours" SUBSEP "parked_told_to_move"] / parked, parked) : "-", \
+          parked > 0 ? shown(mean("ours", "parked_shift_m"), 3) : "-", shown(mean("paper", "false_movers_per_image"), 2), \
+          with_interval("ours", "false_movers_per_image", 2), \
+          followed > 0 ? sprintf("%.2f", sum[group SUBSEP "ours" SUBSEP "identity_switches"] / followed) : "-", \
+          with_interval("ours", "static_scene_m", 3)
+      }
+    }' | sort -t "$(printf '\t')" -k 1,1gr -k 2 | cut -f 2
+}
+
+# By the withheld scans: what is known of drives without labels, and the clouds' distance.
+clouds_table() {
+  echo "| | moving objects: hold, m | ego | const-v | paper | **ours** | static objects: ego, m | ours | Chamfer in view: hold, m | ego | paper | **ours** | oracle |"
+  echo "|---|---|---|---|---|---|---|---|---|---|---|---|---|"
+  awk -F, '
+    function mean(row, figure, digits,   key) {
+      key = group SUBSEP row SUBSEP figure
+      return n[key] > 0 ? sprintf("%." digits "f", sum[key] / n[key]) : "-"
+    }
+    !($1 in seen) { seen[$1] = 1; groups[++number] = $1 }
+    { key = $1 SUBSEP $3 SUBSEP $4; n[key]++; sum[key] += $5 }
+    END {
+      for (g = 1; g <= number; g++) {
+        group = groups[g]
+        moving = "moving_objects_mean_m"; standing = "static_objects_mean_m"; chamfer = "chamfer_in_view_m"
+        printf "| %s | %s | %s | %s | %s | **%s** | %s | %s | %s | %s | %s | **%s** | %s |\n", group, \
+          mean("hold", moving, 3), mean("ego", moving, 3), mean("constant-velocity", moving, 3), mean("paper", moving, 3), \
+          mean("ours", moving, 3), mean("ego", standing, 3), mean("ours", standing, 3), mean("hold", chamfer, 4), \
+          mean("ego", chamfer, 4), mean("paper", chamfer, 4), mean("ours", chamfer, 4), mean("oracle", chamfer, 4)
+      }
+    }'
+}
+
+in_parallel full_run < <(cat "$OUT/real.list"; drawn)
+# The ablation and the sensitivity are drawn by the first seed, but for $SEEDS.
+for part in ablation offline sensitivity; do
+  SEEDS=${ABLATION_SEEDS:-${seeds[0]}} bash "$project/share/$part.sh" > "$OUT/$part.md" || failed=1
 done
 
-for table in ablation offline; do
-  [ -n "${KEEP:-}" ] && [ -s "$out/$table.md" ] || bash "share/$table.sh" "$drive" > "$out/$table.md"
-done
-
-{
-  cat share/results-intro.md
-  echo "| | objects | hold | ego | const-v | paper | **ours** | ours / best other | static: ego | static: ours | Chamfer: hold | ego | ours | oracle |"
-  echo "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|"
-  for run in "${runs[@]}"; do
-    IFS='|' read -r name title command <<< "$run"
-    table=$out/$name.txt
-    moving() { figure "$table" "moving objects, position" "$1" 2; }
-    hold=$(moving hold) ego=$(moving ego) velocity=$(moving constant-velocity) paper=$(moving paper) ours=$(moving ours)
-    ratio=$(printf '%s\n' "$hold" "$ego" "$velocity" "$paper" | sort -g | head -1 | awk -v ours="$ours" '{printf "%.2f", ours / $1}')
-    echo "| $title | $(figure "$table" "moving objects, position" ours 1) | $hold | $ego | $velocity | $paper | **$ours** | $ratio |" \
-      "$(figure "$table" "static objects, position" ego 2) | $(figure "$table" "static objects, position" ours 2) |" \
-      "$(figure "$table" Chamfer hold 3) | $(figure "$table" Chamfer ego 3) | $(figure "$table" Chamfer ours 3) | $(figure "$table" Chamfer oracle 3) |"
-  done
-  printf '\n## Ablation: moving / static objects, mean position error, metres\n\n'
-  cat "$out/ablation.md"
-  printf '\n## With the next scan (`mode=offline`): mean position error of moving and static objects, and Chamfer in view, metres\n\n'
-  cat "$out/offline.md"
-  for run in "${runs[@]}"; do
-    IFS='|' read -r name title command <<< "$run"
-    printf '\n## %s\n\n`%s`\n\n```\n' "$title" "$command"
-    cat "$out/$name.txt"
+whole_page() {
+  local line words name builds
+  cat "$project/share/results-intro.md"
+  builds=$(cat "$OUT"/*.csv | awk -F, '$1 == "run" && $2 == "build" { print $3 }' | sort -u | wc -l)
+  [ "$builds" -le 1 ] || printf '\n**Measured in parts, with %d builds of the tools**: `ANEW=1 share/results.sh` makes all of one.\n' "$builds"
+  printf '\n## Situations that were drawn: seeds %s, the worst first\n\n' "${seeds[*]}"
+  drawn | figures_of | headline_table
+  printf '\n### The same, by the scans of the truth\n\n'
+  drawn | figures_of | clouds_table
+  if [ -s "$OUT/real.list" ]; then
+    printf '\n## Real drives and scenes, by people'"'"'s labels\n\n'
+    figures_of < "$OUT/real.list" | headline_table
+    printf '\n### Real drives and scenes, by the withheld scans\n\n'
+    figures_of < "$OUT/real.list" | clouds_table
+  fi
+  printf '\n## What each switch is worth\n\n'
+  cat "$OUT/ablation.md"
+  printf '\n## With the next scan (`mode = offline`)\n\n'
+  cat "$OUT/offline.md"
+  printf '\n## What the estimator'"'"'s parameters are worth\n\n'
+  cat "$OUT/sensitivity.md"
+  printf '\n## Each run in full\n\nOf the situations drawn, seed %s.\n' "${seeds[0]}"
+  { cat "$OUT/real.list"; drawn | awk -v seed="${seeds[0]}" '$3 == seed' | sort; } | while read -r line; do
+    read -r -a words <<< "$line"
+    name=$(run_name "${words[@]}")
+    printf '\n### %s\n\n`share/measure.sh %s`\n\n```\n' "$(title_of "${words[@]}")" "$(sed 's|/[^ ]*/||' <<< "$line")"
+    if [ -s "$OUT/$name.txt" ]; then cat "$OUT/$name.txt"; else echo "failed"; fi
     printf '```\n'
   done
-} > share/results.md
+}
+whole_page > "$OUT/results.md"
+mv "$OUT/results.md" "$page"
+echo "$page: $((SECONDS / 60)) min, build $build" >&2
+exit "$failed"
