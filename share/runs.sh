@@ -41,15 +41,16 @@ in_parallel() {
     { echo "$(basename "$0"): some runs failed; they are told above, and done again when called again" >&2; failed=1; }
 }
 
-# full_run <share/measure.sh's arguments>: its table, unless it lies there.
+# full_run <by> <share/measure.sh's arguments>: its table, unless it lies there; by what, see there.
 full_run() {
-  local name
+  local name by=$1; shift
   name=$(run_name "$@")
   [ ! -s "$OUT/$name.txt" ] || return 0
-  TIDY=1 bash "$project/share/measure.sh" "$@" > /dev/null 2> "$OUT/$name.errors" ||
+  BY=$by TIDY=1 bash "$project/share/measure.sh" "$@" > /dev/null 2> "$OUT/$name.errors" ||
     { echo "$name failed: $(tail -n 3 "$OUT/$name.errors")" >&2; return 1; }
   rm -f "$OUT/$name.errors"
-  echo "$name: $(awk -F, '$2 == "seconds" { print $3 }' "$OUT/$name.csv") s" >&2
+  awk -F, -v name="$name" '{ value[$2] = $3 }
+    END { print name ": " value["seconds"] " s, " value["cpu_seconds"] " s of the cores" }' "$OUT/$name.csv" >&2
 }
 
 # short_run <group> <setting or -> <mode> <scenario> <seed>: judged by the truth alone, a line in $OUT/<group>/.
@@ -65,11 +66,11 @@ short_run() {
     $1 == "ours" || $1 == "run" { value[$2] = $3 }
     END {
       print run "," value["images"] "," value["movers"] "," value["movers_mean_m"] "," value["movers_p95_m"] "," value["parked"] "," \
-        value["parked_told_to_move"] "," value["false_movers_per_image"] "," value["build"] "," value["seconds"] }' \
+        value["parked_told_to_move"] "," value["false_movers_per_image"] "," value["build"] "," value["seconds"] "," value["cpu_seconds"] }' \
     "$file.all" > "$file.new"
   mv "$file.new" "$file.csv"
   rm -f "$file.errors" "$file.all"
-  echo "$(basename "$file"): $(cut -d , -f 13 "$file.csv") s" >&2
+  echo "$(basename "$file"): $(cut -d , -f 13 "$file.csv") s, $(cut -d , -f 14 "$file.csv") s of the cores" >&2
 }
 
 # short_lines < runs as arguments of short_run: the lines they left.
