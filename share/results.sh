@@ -4,7 +4,8 @@
 #   share/results.sh [folder ...]    folders of, or with, *_sync drives of the KITTI raw set and scenes of DDAD
 # Can be stopped and called again: every run leaves its table in out/results, or $OUT, and what lies there is not measured anew,
 # but for ANEW=1, which keeps the simulated logs only. $SEEDS: those that are drawn, default "101 102 103", which nothing is to be
-# tuned to. $JOBS: runs at a time, default: the cores'. $PAGE: what is made, default share/results.md.
+# tuned to; $ABLATION_SEEDS: for switches and parameters, default: the first of them. $JOBS: runs at a time, default: the
+# cores'. $PAGE: what is made, default share/results.md.
 . "$(dirname "$0")/runs.sh"
 read -r -a seeds <<< "${SEEDS:-101 102 103}"
 page=${PAGE:-$project/share/results.md}
@@ -86,15 +87,15 @@ headline_table() {
         ratio = ours != "" && best > 0 ? ours / best : ""
         parked = sum[group SUBSEP "ours" SUBSEP "parked"]
         followed = sum[group SUBSEP "ours" SUBSEP "objects_followed"]
-        printf "%f\t| %s | %d | %d | %s | %s | %s | **%s** | %s | %s | %s | %s | %s | %s | %s | %s | %s |\n", ratio == "" ? -1 : ratio, \
+        printf "%f\t| %s | %d | %d | %s | %s | %s | **%s** | %s | %s | %s | %s | %s | %s | %s | %s | %s |\n", (ratio == "" ? -1 : ratio), \
           group, runs[group], sum[group SUBSEP "ours" SUBSEP "movers"], shown(mean("ego", "movers_mean_m"), 3), \
           shown(mean("constant-velocity", "movers_mean_m"), 3), shown(mean("paper", "movers_mean_m"), 3), \
           with_interval("ours", "movers_mean_m", 3), shown(ratio, 2), with_interval("ours", "movers_p95_m", 3), \
           with_interval("ours", "velocity_rms_m_s", 2), \
-          parked > 0 ? sprintf("%.1f %% of %d", 100 * sum[group SUBSEP "ours" SUBSEP "parked_told_to_move"] / parked, parked) : "-", \
-          parked > 0 ? shown(mean("ours", "parked_shift_m"), 3) : "-", shown(mean("paper", "false_movers_per_image"), 2), \
+          (parked > 0 ? sprintf("%.1f %% of %d", 100 * sum[group SUBSEP "ours" SUBSEP "parked_told_to_move"] / parked, parked) : "-"), \
+          (parked > 0 ? shown(mean("ours", "parked_shift_m"), 3) : "-"), shown(mean("paper", "false_movers_per_image"), 2), \
           with_interval("ours", "false_movers_per_image", 2), \
-          followed > 0 ? sprintf("%.2f", sum[group SUBSEP "ours" SUBSEP "identity_switches"] / followed) : "-", \
+          (followed > 0 ? sprintf("%.2f", sum[group SUBSEP "ours" SUBSEP "identity_switches"] / followed) : "-"), \
           with_interval("ours", "static_scene_m", 3)
       }
     }' | sort -t "$(printf '\t')" -k 1,1gr -k 2 | cut -f 2
@@ -126,7 +127,6 @@ clouds_table() {
 # Chamfer takes half the time, and differs little from seed to seed: of the first one only.
 in_parallel full_run < <(sed 's/^/scans /' "$OUT/real.list"
   drawn | awk -v first="${seeds[0]}" '{ print ($3 == first ? "scans" : "motions"), $0 }')
-# The ablation and the sensitivity are drawn by the first seed, but for $SEEDS.
 for part in ablation offline sensitivity; do
   SEEDS=${ABLATION_SEEDS:-${seeds[0]}} bash "$project/share/$part.sh" > "$OUT/$part.md" || failed=1
 done
@@ -134,7 +134,8 @@ done
 whole_page() {
   local line words name builds
   cat "$project/share/results-intro.md"
-  builds=$(cat "$OUT"/*.csv | awk -F, '$1 == "run" && $2 == "build" { print $3 }' | sort -u | wc -l)
+  builds=$(find "$OUT" -name '*.csv' -not -path "$OUT/logs/*" -exec awk -F, '
+    $1 == "run" && $2 == "build" { print $3 } NF == 14 { print $12 }' {} + | sort -u | wc -l)
   [ "$builds" -le 1 ] || printf '\n**Measured in parts, with %d builds of the tools**: `ANEW=1 share/results.sh` makes all of one.\n' "$builds"
   printf '\n## Situations that were drawn: seeds %s, the worst first\n\n' "${seeds[*]}"
   drawn | figures_of | headline_table
