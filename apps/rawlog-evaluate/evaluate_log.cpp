@@ -53,6 +53,8 @@ class Walk {
     }
     if (!job.truth_objects.empty()) {
       truth_ = load_truth(job.truth_objects);
+      for (const std::string& warning : truth_->warnings)
+        result_.notes.push_back(job.truth_objects + ": " + warning);
       labels_.emplace(*truth_, job_.options, cameras_, real);
     }
     if (!job.paper_row) return;

@@ -149,6 +149,7 @@ template <typename Key>
 Binned binned_by(const LogResult& result, bool moving, const char* name, const char* unit,
                  const std::vector<double>& edges, const Key& key) {
   Binned binned{name, unit, moving, {}};
+  if (edges.size() < 2) return binned;  // no scan was compared
   PerRow<std::vector<ErrorBin>> per_row;
   for (const Row row : kRows) {
     std::vector<KeyedError> errors;

@@ -37,6 +37,7 @@ struct Truth {
   Trajectory T_world_vehicle;
   std::vector<TrueObject> objects;
   std::multimap<Stamp, IgnoredArea> ignored;
+  std::vector<std::string> warnings;  ///< what is wrong with the labels, and how often
 };
 
 /// @brief Reads `<stem>_objects.csv` and, beside it, `<stem>_ego.csv` and, if there is one,

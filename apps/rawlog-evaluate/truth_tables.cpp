@@ -16,6 +16,9 @@ namespace {
 
 // Labels come at 2 Hz or more; further apart, one is missing.
 constexpr InterpolationLimits kTruthLimits{0.6, 0};
+// Two labels of a track this far apart are of two objects: nothing on a road drives that fast.
+constexpr double kJump_mps = 60, kJump_m = 3;
+constexpr double kAboutJump_s = 0.35;      // as far as a velocity is fitted
 constexpr double kSlowestMover_mps = 0.5;  // where the table does not tell who moves
 
 Stamp stamp_of(const CsvTable& table, std::size_t row) {
@@ -72,6 +75,37 @@ void fit_velocities(const std::vector<std::vector<LabelledPosition>>& tracks, Tr
         truth.objects[i].velocity[label.stamp] = fitted->velocity;
 }
 
+/// A track whose label jumps to something else tells no velocity about the jump.
+int drop_jumps(const std::vector<LabelledPosition>& track, TrueObject& object) {
+  int jumps = 0;
+  for (std::size_t i = 1; i < track.size(); ++i) {
+    const double step = (track[i].position - track[i - 1].position).norm();
+    const double dt = seconds_between(track[i - 1].stamp, track[i].stamp);
+    if (step < kJump_m || step < kJump_mps * dt) continue;
+    ++jumps;
+    const auto about = [&](Stamp stamp) {
+      return seconds_between(track[i - 1].stamp, stamp) > -kAboutJump_s &&
+             seconds_between(stamp, track[i].stamp) > -kAboutJump_s;
+    };
+    for (auto known = object.velocity.begin(); known != object.velocity.end();)
+      known = about(known->first) ? object.velocity.erase(known) : std::next(known);
+  }
+  return jumps;
+}
+
+void drop_jumps(const std::vector<std::vector<LabelledPosition>>& tracks, Truth& truth) {
+  int jumps = 0, objects = 0;
+  for (std::size_t i = 0; i < tracks.size(); ++i) {
+    const int of_object = drop_jumps(tracks[i], truth.objects[i]);
+    jumps += of_object;
+    objects += of_object > 0 ? 1 : 0;
+  }
+  if (jumps > 0)
+    truth.warnings.push_back("labels of " + std::to_string(objects) + " objects jump " +
+                             std::to_string(jumps) +
+                             " times, faster than anything drives: no velocity is told there");
+}
+
 void read_objects(const CsvTable& boxes, Truth& truth) {
   std::map<std::string, std::size_t> place;
   std::vector<std::vector<LabelledPosition>> tracks;
@@ -91,6 +125,7 @@ void read_objects(const CsvTable& boxes, Truth& truth) {
     if (const auto velocity = velocity_of(boxes, row)) object.velocity[stamp] = *velocity;
   }
   if (!boxes.has("vx")) fit_velocities(tracks, truth);
+  drop_jumps(tracks, truth);
   if (boxes.has("moving")) return;
   for (TrueObject& object : truth.objects)
     for (const auto& [stamp, velocity] : object.velocity)

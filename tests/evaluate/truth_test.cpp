@@ -4,6 +4,10 @@
 
 #include <gtest/gtest.h>
 
+#include <fstream>
+
+#include "io/test_folder.h"
+
 namespace lidar_upsampling {
 namespace {
 
@@ -45,6 +49,82 @@ TEST(BroughtTo, beyond_the_truth_the_scan_stays_as_it_is) {
   const LidarScan later = brought_to(crossing(), scan, at(3));
   EXPECT_EQ(later.stamp, at(0.1));
   EXPECT_EQ(later.points[0], scan.points[0]);
+}
+
+/// A user's own table: a car at 5 m/s whose labels jitter by a decimetre, ten a second.
+class OwnTable : public ::testing::Test {
+ protected:
+  OwnTable() {
+    write("_ego.csv", "stamp,x,y,z,yaw\n0,0,0,0,0\n20000000,20,0,0,0\n");
+    std::string rows = "stamp,id,class,x,y,z,yaw,length,width,height\n";
+    for (int i = 0; i <= 10; ++i)
+      rows += std::to_string(1'000'000 * i) + ",7,car," +
+              std::to_string(0.5 * i + (i % 2 == 0 ? 0.05 : -0.05)) + ",3,0,0,4,2,1.5\n";
+    write("_objects.csv", rows);
+  }
+
+  void write(const std::string& ending, const std::string& text) {
+    std::ofstream(folder_ / ("own" + ending)) << text;
+  }
+  [[nodiscard]] Truth load() const { return load_truth(folder_ / "own_objects.csv"); }
+  [[nodiscard]] std::string complaint() const {
+    try {
+      static_cast<void>(load());
+    } catch (const std::runtime_error& error) {
+      return error.what();
+    }
+    return {};
+  }
+
+  TestFolder folder_;
+};
+
+TEST_F(OwnTable, without_velocities_they_are_fitted_to_the_boxes_about) {
+  const Truth truth = load();
+  ASSERT_EQ(truth.objects.size(), 1U);
+  const auto velocity = truth.objects[0].velocity_at(Stamp(Stamp::duration(5'000'000)));
+  ASSERT_TRUE(velocity);
+  EXPECT_NEAR(velocity->x(), 5, 0.1);
+  EXPECT_TRUE(truth.objects[0].moves_at(Stamp(Stamp::duration(5'000'000))));
+}
+
+TEST_F(OwnTable, beyond_its_labels_an_object_has_no_velocity) {
+  EXPECT_FALSE(load().objects[0].velocity_at(Stamp(Stamp::duration(12'000'000))));
+}
+
+TEST_F(OwnTable, areas_that_nobody_labelled_are_read_where_there_are_any) {
+  EXPECT_TRUE(load().ignored.empty());
+  write("_ignored.csv", "stamp,camera,left,top,right,bottom\n0,CAM2,1,2,3,4\n");
+  const Truth truth = load();
+  ASSERT_EQ(truth.ignored.size(), 1U);
+  EXPECT_EQ(truth.ignored.begin()->second.camera, "CAM2");
+  EXPECT_EQ(truth.ignored.begin()->second.box.right, 3);
+}
+
+TEST_F(OwnTable, a_track_that_jumps_tells_no_velocity_there_and_is_warned_of) {
+  std::string rows = "stamp,id,class,x,y,z,yaw,length,width,height\n";
+  for (int i = 0; i <= 20; ++i)
+    rows += std::to_string(1'000'000 * i) + ",7,car," + std::to_string(0.5 * i) + "," +
+            (i < 10 ? "3" : "30") + ",0,0,4,2,1.5\n";
+  write("_objects.csv", rows);
+  const Truth truth = load();
+  ASSERT_EQ(truth.warnings.size(), 1U);
+  EXPECT_NE(truth.warnings[0].find("labels of 1 objects jump 1 times"), std::string::npos);
+  for (const auto& [stamp, velocity] : truth.objects[0].velocity)
+    EXPECT_LT(velocity.norm(), 6) << stamp.time_since_epoch().count();
+  EXPECT_FALSE(truth.objects[0].velocity.empty());
+}
+
+TEST_F(OwnTable, wrong_ones_are_told_in_a_line_that_names_the_file) {
+  write("_ego.csv", "stamp,x,y,z,yaw\n");
+  EXPECT_NE(complaint().find("own_ego.csv: holds no pose"), std::string::npos) << complaint();
+  write("_ego.csv", "stamp,x,y,z,yaw\n0,0,0,0,0\n");
+  write("_objects.csv", "");
+  EXPECT_NE(complaint().find("own_objects.csv: cannot be read, or is empty"), std::string::npos);
+  write("_objects.csv", "stamp,id,class,x,y,z,yaw,length,width,height\n");
+  EXPECT_NE(complaint().find("holds no labelled object"), std::string::npos) << complaint();
+  write("_objects.csv", "stamp,id,class,x,y,z,yaw,length,width,height\n0,7,car,0,0,0,0,4,0,1.5\n");
+  EXPECT_NE(complaint().find("box without extent"), std::string::npos) << complaint();
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include "error_plots.h"
 #include "error_tables.h"
 #include "html.h"
+#include "label_tables.h"
 #include "running_time.h"
 #include "tracks.h"
 
@@ -86,6 +87,9 @@ std::string left_out_html(const Comparison& comparison) {
 void add_comparison(const Comparison& comparison, const DrawnPlots& plots,
                     std::vector<Section>& sections) {
   const Figures& figures = comparison.figures;
+  const auto by_labels = label_tables(comparison.result.labels);
+  if (!by_labels.empty()) sections.push_back({"labels", "By labels", blocks_of(by_labels)});
+  if (comparison.result.scans.empty()) return;
   sections.push_back({"objects", "Errors of objects",
                       blocks_of(object_tables(figures)) + rows_html() + left_out_html(comparison)});
   sections.push_back({"distribution", "Distribution of position errors",
@@ -115,7 +119,7 @@ std::string compared_text(const LogResult& result) {
   return std::to_string(result.scans.size()) + " of " + std::to_string(result.num_virtual) +
          " virtual scans" +
          (result.num_unmatched > 0
-              ? " (" + std::to_string(result.num_unmatched) + " without a reference)"
+              ? " (" + std::to_string(result.num_unmatched) + " without a withheld scan near)"
               : "");
 }
 
@@ -123,9 +127,10 @@ std::string facts_html(const PageContent& content) {
   std::string html = "<dl class=\"facts\">\n" + fact("densified log", content.input);
   if (const auto& comparison = content.comparison) {
     const LogResult& result = comparison->result;
-    html += fact("reference", result.reference +
-                                  (result.has_truth ? ", with the simulator's true objects"
-                                                    : ", by registration of objects to its scans"));
+    html += fact("reference", result.reference.empty() ? "labels alone"
+                              : result.has_truth
+                                  ? result.reference + ", with true or labelled objects"
+                                  : result.reference + ", by registration of objects to its scans");
     html += fact("compared", compared_text(result));
     html += fact("protocol", result.protocol);
   } else {
@@ -186,8 +191,11 @@ std::string to_page(const PageContent& content) {
   std::string header = facts_html(content);
   std::vector<Section> sections;
   if (const auto& comparison = content.comparison) {
-    header +=
-        paragraph(headline(comparison->figures), "headline") + beaten_html(comparison->figures);
+    const std::string by_labels = label_headline(comparison->result.labels);
+    if (!by_labels.empty()) header += paragraph(by_labels, "headline");
+    if (!comparison->result.scans.empty())
+      header += paragraph(headline(comparison->figures), "headline");
+    header += beaten_html(comparison->figures);
     add_comparison(*comparison, plots, sections);
   } else {
     header += paragraph(coverage_headline(content.coverage), "headline");
