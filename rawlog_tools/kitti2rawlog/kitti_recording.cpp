@@ -3,6 +3,7 @@
 #include "kitti2rawlog/kitti_recording.h"
 
 #include <filesystem>
+#include <map>
 #include <stdexcept>
 
 #include "kitti2rawlog/kitti_calibration.h"
@@ -75,6 +76,21 @@ std::string label_file_of(const std::string& drive) {
                            "--labels FILE");
 }
 
+// The pose of a scan is that of its frame: the set's makers gave each frame the OXTS packet of its
+// instant, whose own stamp tells when it arrived, up to 20 ms later.
+std::vector<PoseSample> poses_of_scans(const Recording& recording) {
+  std::map<int, std::size_t> pose_of_frame;
+  const std::vector<Frame>& frames = recording.pose_frames.files.frames;
+  for (std::size_t i = 0; i < frames.size(); ++i) pose_of_frame[frames[i].number] = i;
+  std::vector<PoseSample> samples;
+  for (const Frame& scan : recording.scans.files.frames) {
+    const auto pose = pose_of_frame.find(scan.number);
+    if (pose != pose_of_frame.end())
+      samples.push_back({scan.stamp, recording.poses[pose->second].T_world_vehicle});
+  }
+  return samples;
+}
+
 std::vector<Stamp> stamps_of(const SensorFrames& sensor) {
   std::vector<Stamp> stamps;
   for (const Frame& frame : sensor.files.frames) stamps.push_back(frame.stamp);
@@ -143,7 +159,7 @@ std::vector<std::string> add_tracks(Recording& recording, const std::string& dri
                              "to put labels over ground (is the drive's oxts folder unpacked?)");
   }
   Trajectory ego;
-  for (const PoseSample& sample : recording.poses) ego.add(sample);
+  for (const PoseSample& sample : poses_of_scans(recording)) ego.add(sample);
   if (fs::path(path).extension() == ".xml") {
     recording.tracks = tracks_in_world(read_tracklets(path), recording.scans.files.frames,
                                        recording.T_vehicle_lidar, ego);
@@ -182,7 +198,7 @@ importing::LabelledLog labels_of(const Recording& recording) {
   importing::LabelledLog log;
   log.tracks = recording.tracks;
   log.ignored = recording.ignored;
-  log.ego = recording.poses;
+  log.ego = poses_of_scans(recording);
   log.scans = stamps_of(recording.scans);
   for (const CameraFrames& sensor : recording.cameras) {
     log.cameras.push_back({sensor.camera, stamps_of(sensor.pictures)});
