@@ -5,7 +5,7 @@
 # Can be stopped and called again: every run leaves its table in out/results, or $OUT, and what lies there is not measured anew,
 # but for ANEW=1, which keeps the simulated logs only. $SEEDS: those that are drawn, default "101 102 103", which nothing is to be
 # tuned to; $ABLATION_SEEDS: for switches and parameters, default: the first of them. $JOBS: runs at a time, default: the
-# cores'. $PAGE: what is made, default share/results.md.
+# cores'. $PAGE: what is made, default share/results.md. $PARTS: "ablation offline sensitivity" or fewer, which take longest.
 . "$(dirname "$0")/runs.sh"
 read -r -a seeds <<< "${SEEDS:-101 102 103}"
 page=${PAGE:-$project/share/results.md}
@@ -127,9 +127,13 @@ clouds_table() {
 # Chamfer takes half the time, and differs little from seed to seed: of the first one only.
 in_parallel full_run < <(sed 's/^/scans /' "$OUT/real.list"
   drawn | awk -v first="${seeds[0]}" '{ print ($3 == first ? "scans" : "motions"), $0 }')
-for part in ablation offline sensitivity; do
+for part in ${PARTS-ablation offline sensitivity}; do
   SEEDS=${ABLATION_SEEDS:-${seeds[0]}} bash "$project/share/$part.sh" > "$OUT/$part.md" || failed=1
 done
+
+part_of_page() {
+  if [ -s "$OUT/$1.md" ]; then cat "$OUT/$1.md"; else echo "Not measured with this build: \`share/$1.sh\`."; fi
+}
 
 whole_page() {
   local line words name builds
@@ -148,11 +152,11 @@ whole_page() {
     figures_of < "$OUT/real.list" | clouds_table
   fi
   printf '\n## What each switch is worth\n\n'
-  cat "$OUT/ablation.md"
+  part_of_page ablation
   printf '\n## With the next scan (`mode = offline`)\n\n'
-  cat "$OUT/offline.md"
+  part_of_page offline
   printf '\n## What the estimator'"'"'s parameters are worth\n\n'
-  cat "$OUT/sensitivity.md"
+  part_of_page sensitivity
   printf '\n## Each run in full\n\nOf the situations drawn, seed %s.\n' "${seeds[0]}"
   { cat "$OUT/real.list"; drawn | awk -v seed="${seeds[0]}" '$3 == seed' | sort; } | while read -r line; do
     read -r -a words <<< "$line"

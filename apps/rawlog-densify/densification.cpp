@@ -27,6 +27,7 @@ Densification::Densification(const DensifyJob& job, const LogIndex& index, Densi
   for (const PoseSample& sample : index.poses) upsampler_.ego_motion().add_pose(sample);
   for (const PoseSample& sample : index.odometry) upsampler_.ego_motion().add_odometry(sample);
   for (const GnssSample& sample : index.gnss) upsampler_.ego_motion().add_gnss(sample);
+  report.camera_time_offset_ms = job.config.timing.camera_time_offset_ms;
   report.ego_source = to_string(upsampler_.ego_motion().source());
   if (!job.pictures.empty()) pictures_.emplace(job.pictures);
   if (job.config.mode == "offline") ahead_.emplace(job.input, lidar_label_, job.rig);

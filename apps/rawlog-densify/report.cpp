@@ -129,6 +129,7 @@ nlohmann::json to_json(const DensifyReport& report) {
                       {"output", report.output},
                       {"mode", report.mode},
                       {"hindsight", report.hindsight},
+                      {"camera_time_offset_ms", report.camera_time_offset_ms},
                       {"ego_motion", report.ego_source},
                       {"detector", report.detector},
                       {"carrier", report.carrier},

@@ -18,10 +18,11 @@ namespace lidar_upsampling {
 struct DensifyReport {
   std::string input, output;
   std::string mode, ego_source, detector, carrier;
-  bool hindsight = false;          ///< whether a first run has told who moves
-  std::size_t num_objects_in = 0;  ///< entries of the input log
-  std::size_t num_scans = 0;       ///< real scans of the chosen LiDAR
-  std::size_t num_images = 0;      ///< images of the chosen cameras
+  double camera_time_offset_ms = 0;  ///< as set: a judge needs it
+  bool hindsight = false;            ///< whether a first run has told who moves
+  std::size_t num_objects_in = 0;    ///< entries of the input log
+  std::size_t num_scans = 0;         ///< real scans of the chosen LiDAR
+  std::size_t num_images = 0;        ///< images of the chosen cameras
   std::size_t num_virtual_scans = 0;
   std::size_t num_extrapolated = 0;               ///< of them, with the ego-motion extrapolated
   std::map<std::string, std::size_t> resampling;  ///< what became of it, virtual scans

@@ -113,6 +113,7 @@ Comparison compare(Request& request, const std::optional<RunReport>& run, bool w
   if (!request.protocol.empty()) job.options.protocol = find_protocol(request.protocol);
   request.sets.emplace_back("preset=paper");
   load_settings(job.paper, request.config, request.sets, "");
+  if (run) job.paper.config.timing.camera_time_offset_ms = run->camera_time_offset_ms;
   Comparison comparison;
   if (with_pictures)
     job.on_scan = [&](const ScanSet& scans, const ScanResult& result, const Pictured& pictures) {

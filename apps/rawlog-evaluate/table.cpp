@@ -189,7 +189,7 @@ std::string to_csv(const LogResult& result, const Figures& figures) {
 
 std::string to_table(const LogResult& result, const Figures& figures,
                      const std::optional<Protocol>& protocol) {
-  if (result.reference.empty()) {
+  if (result.reference.empty() && result.labels[Row::ego]) {  // by labels alone
     std::string table = to_text(result.labels, result.num_unlabelled);
     for (const std::string& note : result.notes) table += "note: " + note + "\n";
     return table;

@@ -19,7 +19,7 @@ class FreeRunningCamera : public testing::Test {
 duration_s = 1
 [camera.CAM0]
 rate_hz = 15
-phase_ms = 17
+phase_s = 0.017
 )",
              "[lidar]\nrings = 64\ncolumns = 900\n");
     expect_done(std::string(RAWLOG_DECIMATE) + " --label LIDAR --keep-every 2 --input " +

@@ -97,7 +97,7 @@ TEST_F(Page, is_shown_whole_by_a_browser) {
   const std::string dom = dom_of_page(1280);
   EXPECT_TRUE(contains(dom, "data-broken=\"0\""));
   EXPECT_TRUE(contains(dom, "data-aside=\"0\""));
-  EXPECT_EQ(count_of(dom, "<section"), 8);
+  EXPECT_EQ(count_of(dom, "<section"), 9);
   EXPECT_EQ(count_of(dom, "<article"), 12);
   EXPECT_TRUE(contains(dom_of_page(500), "data-aside=\"0\""));  // as narrow as it goes
 

@@ -13,7 +13,7 @@ namespace {
 using testing::BoxObject;
 
 /// A car that drives off at 10 m/s, one that is parked, and walls; the sensor stands.
-LidarScan scan_at(double seconds) {
+LidarScan standing_scan(double seconds) {
   const std::vector<BoxObject> boxes{{{12 + 10 * seconds, 2, -1.8}, 4.2, 1.8, 1.5, 0},
                                      {{18, -4, -1.8}, 4.2, 1.8, 1.5, 0},
                                      {{15, -9, -1.8}, 40, 0.5, 3, 0},
@@ -43,7 +43,7 @@ class References : public ::testing::Test {
   }
 
   EvaluationOptions options_;
-  LidarScan key_ = scan_at(0), first_ = scan_at(0.1), second_ = scan_at(0.2);
+  LidarScan key_ = standing_scan(0), first_ = standing_scan(0.1), second_ = standing_scan(0.2);
   std::vector<ObjectReference> objects_ = objects_by_clusters(key_);
   RegisteredMotions motions_{key_, objects_, options_};
 };
@@ -95,7 +95,9 @@ TEST_F(References, the_scan_is_brought_to_the_instant_with_what_moves_on_it) {
     const bool is_car = point.x() > 10 && point.x() < 16 && std::abs(point.y() - 2) < 1 &&
                         point.z() > -1.4 && point.z() < 0;
     if (is_car) moved += step.x(), ++on_car;
-    if (point.x() > 35) EXPECT_LT(step.norm(), 0.02) << point.transpose();
+    if (point.x() > 35) {
+      EXPECT_LT(step.norm(), 0.02) << point.transpose();
+    }
   }
   ASSERT_GT(on_car, 50);
   EXPECT_NEAR(moved / on_car, 0.3, 0.03);

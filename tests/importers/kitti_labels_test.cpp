@@ -34,6 +34,10 @@ struct LabelledDriveFolder {
            folder / "x_objects.csv" + " " + more;
   }
 
+  [[nodiscard]] fs::path oxts_file(int frame) const {
+    return drive / ("oxts/data/000000000" + std::to_string(frame) + ".txt");
+  }
+
   void expect_refused(const std::string& why, const std::string& more = "") const {
     const ToolResult result = run_for_errors(command(more));
     EXPECT_EQ(result.status, 1);
@@ -162,22 +166,24 @@ TEST(KittiLabels, that_do_not_cover_the_drive_are_counted) {
 
 TEST(KittiLabels, of_frames_without_a_pose_are_counted) {
   const LabelledDriveFolder labelled;
-  const fs::path stamps = labelled.drive / "velodyne_points/timestamps.txt";
-  std::string text = content_of(stamps.string());
-  // The last scan comes a second after the last pose; poses are carried on for a quarter of one.
-  text.erase(text.rfind('\n', text.size() - 2) + 1);
-  std::ofstream(stamps) << text << "2026-01-01 00:00:02.0\n";
-  labelled.expect_warning("1 of 4 labelled frames (3 to 3) have no pose of the vehicle: left out");
+  // One pose tells no motion to carry on with.
+  for (int i = 1; i < kNumFrames; ++i) fs::remove(labelled.oxts_file(i));
+  const ToolResult result = run_for_errors(labelled.command());
+  EXPECT_EQ(result.status, 0);
+  EXPECT_TRUE(contains(result.text, "3 of 4 labelled frames (1 to 3) have no pose of the vehicle"))
+      << result.text;
   EXPECT_EQ(read_truth_table(labelled.folder / "x_objects.csv").size(),
-            (kNumFrames - 1) * labelled.street.ids().size());
+            labelled.street.ids().size());
 }
 
 TEST(KittiLabels, are_refused_where_no_frame_has_a_pose) {
   const LabelledDriveFolder labelled;
-  std::string late;
-  for (int i = 0; i < kNumFrames; ++i) late += "2026-01-01 00:01:0" + std::to_string(i) + ".0\n";
-  std::ofstream(labelled.drive / "velodyne_points/timestamps.txt") << late;
-  labelled.expect_refused("no labelled frame has a pose of the vehicle");
+  for (int i = 0; i + 1 < kNumFrames; ++i) fs::remove(labelled.oxts_file(i));
+  fs::remove(labelled.drive / "velodyne_points/data/0000000003.bin");
+  const ToolResult result = run_for_errors(labelled.command());
+  EXPECT_EQ(result.status, 1);
+  EXPECT_TRUE(contains(result.text, "no labelled frame has a pose of the vehicle")) << result.text;
+  EXPECT_FALSE(fs::exists(labelled.folder / "x_objects.csv"));
 }
 
 TEST(KittiLabels, that_jump_are_left_out_and_counted) {

@@ -166,7 +166,8 @@ KittiPoints kitti_points(const SmallStreet& street, Stamp stamp) {
 }
 
 Stamp drive_picture_stamp(int frame) { return shifted(frame_stamp(frame), 0.01); }
-Stamp drive_oxts_stamp(int frame) { return shifted(frame_stamp(frame), -0.001); }
+// A packet's stamp tells when it arrived; here it does so at once.
+Stamp drive_oxts_stamp(int frame) { return frame_stamp(frame); }
 
 Pose T_drive_world(const SmallStreet& street) {
   return Pose(Eigen::Translation3d(-street.T_world_vehicle(drive_oxts_stamp(0)).translation()));

@@ -88,6 +88,7 @@ namespace {
 RunReport report_of(const Json& json) {
   RunReport report;
   report.ego_motion = json.at("ego_motion").get<std::string>();
+  report.camera_time_offset_ms = json.at("camera_time_offset_ms").get<double>();
   report.detector = json.at("detector").get<std::string>();
   report.carrier = json.at("carrier").get<std::string>();
   report.num_scans = json.at("scans_in").get<int>();

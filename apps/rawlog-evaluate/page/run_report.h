@@ -49,6 +49,7 @@ struct ReportedObject {
 struct RunReport {
   std::string path;
   std::string ego_motion, detector, carrier;
+  double camera_time_offset_ms = 0;  ///< the log was densified with
   int num_scans = 0, num_images = 0, num_virtual = 0, num_extrapolated = 0;
   std::vector<StageFigures> stages;
   std::map<std::string, int> object_status, warnings;
