@@ -43,12 +43,12 @@ HtmlTable movers_table(const FiguresByRow& figures, bool all) {
 }
 
 HtmlTable false_table(const FiguresByRow& figures) {
-  HtmlTable table{"Told to move that do not, and tracks",
-                  {"parked", "told to move", "shift m", "false movers per image", "shift m",
-                   "objects followed", "identity switches"},
-                  {},
-                  "parked: labelled, standing, and told of; false movers: told to move where "
-                  "nothing is labelled."};
+  HtmlTable table{
+      "Told to move that do not, and tracks",
+      {"parked", "told to move", "shift m", "false per image", "shift m", "followed", "switches"},
+      {},
+      "parked: labelled, standing, and told of; false movers: told to move where "
+      "nothing is labelled."};
   for (const Row row : kRows) {
     if (!figures[row]) continue;
     const LabelFigures& f = *figures[row];
