@@ -20,12 +20,12 @@ Points moved(const Points& points, const Pose& T) {
   return result;
 }
 
-Points seen_only(const Points& points, const LidarScan& scan, const std::vector<Camera>& cameras,
+Points seen_only(const Points& points, const std::vector<View>& views,
                  std::vector<bool>* of_object = nullptr) {
   Points result;
   std::vector<bool> kept;
   for (std::size_t i = 0; i < points.size(); ++i) {
-    if (!in_view(cameras, scan, points[i].cast<double>())) continue;
+    if (!in_view(views, points[i].cast<double>())) continue;
     result.push_back(points[i]);
     if (of_object != nullptr) kept.push_back((*of_object)[i]);
   }
@@ -126,10 +126,11 @@ void measure_clouds(const PerRow<Points>& clouds, const LidarScan& reference,
   const PointIndex index(reference.points);
   const std::vector<bool> of_object = points_of_objects(ego.size(), result.objects);
   const SharedScene scene(ego, of_object, reference.points, index);
-  const Points seen = seen_only(reference.points, reference, cameras);
+  const std::vector<View> views = views_of(cameras, reference);
+  const Points seen = seen_only(reference.points, views);
   const PointIndex seen_index(seen);
   std::vector<bool> seen_of_object = of_object;
-  const Points ego_seen = seen_only(ego, reference, cameras, &seen_of_object);
+  const Points ego_seen = seen_only(ego, views, &seen_of_object);
   std::optional<SharedScene> seen_scene;
   if (!seen.empty()) seen_scene.emplace(ego_seen, seen_of_object, seen, seen_index);
   // Nothing is sampled here: the floor is zero, and left out.
@@ -140,12 +141,12 @@ void measure_clouds(const PerRow<Points>& clouds, const LidarScan& reference,
     if (shares_scene(row)) {
       const Points objects = part_of(clouds[row], of_object, true);
       cloud.full = scene.chamfer(objects);
-      const Points objects_seen = seen_only(objects, reference, cameras);
+      const Points objects_seen = seen_only(objects, views);
       if (seen_scene && !(seen_scene->empty() && objects_seen.empty()))
         cloud.in_view = seen_scene->chamfer(objects_seen);
     } else {
       cloud.full = chamfer_to(clouds[row], reference.points, index);
-      const Points own_seen = seen_only(clouds[row], reference, cameras);
+      const Points own_seen = seen_only(clouds[row], views);
       if (!seen.empty() && !own_seen.empty())
         cloud.in_view = chamfer_to(own_seen, seen, seen_index);
     }

@@ -2,6 +2,8 @@
 // Copyright (c) 2026, the lidar_upsampling authors
 #include <mrpt/obs/CObservationImage.h>
 #include <mrpt/obs/CSensoryFrame.h>
+#include <mrpt/rtti/CObject.h>
+#include <tbb/parallel_invoke.h>
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
@@ -110,20 +112,20 @@ class Walk {
     const auto previous = std::exchange(key_, std::make_shared<KeyScan>());
     key_->scan = std::move(scan);
     const LidarScan& key = key_->scan;
-    if (labels_) labels_->take_key(key, previous ? &previous->scan : nullptr);
-    if (references_) prepare_key(previous ? &previous->scan : nullptr);
+    if (references_) {
+      key_->objects = truth_ ? objects_by_truth(key, *truth_, job_.options.min_points_truth)
+                             : objects_by_clusters(key);
+      key_->motions.emplace(key, key_->objects, job_.options);
+    }
+    if (previous) prepare_last_motions(previous->scan);
+    if (labels_) labels_->take_key(key, key_->last_motions ? &*key_->last_motions : nullptr);
   }
 
-  void prepare_key(const LidarScan* previous) {
-    const LidarScan& key = key_->scan;
-    key_->objects = truth_ ? objects_by_truth(key, *truth_, job_.options.min_points_truth)
-                           : objects_by_clusters(key);
-    key_->motions.emplace(key, key_->objects, job_.options);
-    if (previous == nullptr) return;
-    const double dt = seconds_between(previous->stamp, key.stamp);
+  void prepare_last_motions(const LidarScan& previous) {
+    const double dt = seconds_between(previous.stamp, key_->scan.stamp);
     if (!(dt > 0)) return;
-    if (const auto T_previous_key = ego_motion_back_to(*previous))
-      key_->last_motions.emplace(*previous, *T_previous_key, dt);
+    if (const auto T_previous_key = ego_motion_back_to(previous))
+      key_->last_motions.emplace(previous, *T_previous_key, dt);
   }
 
   [[nodiscard]] std::optional<Pose> ego_motion_back_to(const LidarScan& previous) const {
@@ -228,9 +230,13 @@ void feed_entry(const RawlogEntry& entry, Walk& walk) {
 }  // namespace
 
 LogResult evaluate_log(const EvaluationJob& job, const std::function<void(double)>& progress) {
-  LogIndex input = whole_index(job.input);
+  LogIndex input;
   std::optional<LogIndex> reference;
-  if (!job.reference.empty()) reference = whole_index(job.reference);
+  mrpt::rtti::registerAllPendingClasses();  // not by two threads at a time
+  tbb::parallel_invoke([&] { input = whole_index(job.input); },
+                       [&] {
+                         if (!job.reference.empty()) reference = whole_index(job.reference);
+                       });
   take_poses_from_file(job.paper.config, job.paper.rig, input);
   LogResult result;
   result.input = job.input;

@@ -2,6 +2,8 @@
 // Copyright (c) 2026, the lidar_upsampling authors
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
+
 #include "clouds.h"
 #include "estimates.h"
 #include "evaluation.h"
@@ -12,16 +14,12 @@ namespace lidar_upsampling {
 namespace {
 
 /// T_camera_lidar of the first camera that sees the point, of the first one if none does.
-std::optional<Pose> viewing_camera(const std::vector<Camera>& cameras, const LidarScan& scan,
+std::optional<Pose> viewing_camera(const std::vector<View>& views,
                                    const Eigen::Vector3d& point_in_lidar) {
-  if (cameras.empty()) return {};
-  const Camera* viewing = &cameras.front();
-  for (const Camera& camera : cameras)
-    if (in_view(camera, scan, point_in_lidar)) {
-      viewing = &camera;
-      break;
-    }
-  return viewing->T_vehicle_camera.inverse() * scan.T_vehicle_lidar;
+  if (views.empty()) return {};
+  const auto viewing = std::find_if(
+      views.begin(), views.end(), [&](const View& view) { return in_view(view, point_in_lidar); });
+  return (viewing != views.end() ? *viewing : views.front()).T_camera_lidar;
 }
 
 ObjectError error_of(const ReferenceMotion& object, const Pose& estimate,
@@ -37,6 +35,7 @@ ObjectError error_of(const ReferenceMotion& object, const Pose& estimate,
 std::vector<ObjectResult> evaluate_objects(std::vector<ObjectReference> references,
                                            const RowSources& sources,
                                            const std::vector<Camera>& cameras, double dt) {
+  const std::vector<View> views = views_of(cameras, sources.scans.reference);
   std::vector<ObjectResult> results(references.size());
   tbb::parallel_for(std::size_t{0}, references.size(), [&](std::size_t i) {
     ObjectResult& result = results[i];
@@ -44,8 +43,7 @@ std::vector<ObjectResult> evaluate_objects(std::vector<ObjectReference> referenc
     if (!result.object.excluded.empty()) return;
     result.estimates = estimates_of(result.object, sources);
     const ReferenceMotion& motion = result.object.motion;
-    const auto T_camera_lidar = viewing_camera(cameras, sources.scans.reference,
-                                               motion.T_lidar_t_lidar_k * motion.centroid_k);
+    const auto T_camera_lidar = viewing_camera(views, motion.T_lidar_t_lidar_k * motion.centroid_k);
     for (const Row row : kRows)
       if (row != Row::oracle && result.estimates[row])
         result.errors[row] = error_of(motion, *result.estimates[row], T_camera_lidar, dt);

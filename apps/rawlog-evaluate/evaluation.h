@@ -128,11 +128,18 @@ struct LogResult {
 /// their reference log, too.
 void append(LogResult& total, LogResult log);
 
-/// Whether a point of a scan's lidar frame is seen by the camera, or by one of the cameras.
-[[nodiscard]] bool in_view(const Camera& camera, const LidarScan& scan,
-                           const Eigen::Vector3d& point_in_lidar);
-[[nodiscard]] bool in_view(const std::vector<Camera>& cameras, const LidarScan& scan,
-                           const Eigen::Vector3d& point_in_lidar);
+/// A camera as a scan's points are seen by it.
+struct View {
+  const Camera* camera = nullptr;
+  Pose T_camera_lidar = Pose::Identity();
+};
+
+/// In the cameras' order. @param cameras must outlive the views.
+[[nodiscard]] std::vector<View> views_of(const std::vector<Camera>& cameras, const LidarScan& scan);
+
+/// Whether a point of the scan's lidar frame is seen by the camera, or by one of the cameras.
+[[nodiscard]] bool in_view(const View& view, const Eigen::Vector3d& point_in_lidar);
+[[nodiscard]] bool in_view(const std::vector<View>& views, const Eigen::Vector3d& point_in_lidar);
 
 struct InstantReference;
 

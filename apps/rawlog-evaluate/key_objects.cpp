@@ -77,26 +77,30 @@ std::vector<ObjectReference> objects_by_truth(const LidarScan& key, const Truth&
   return objects;
 }
 
-bool in_view(const Camera& camera, const LidarScan& scan, const Eigen::Vector3d& point_in_lidar) {
-  const Eigen::Vector3d in_camera =
-      camera.T_vehicle_camera.inverse() * scan.T_vehicle_lidar * point_in_lidar;
-  return project(camera.model, in_camera).has_value();
+std::vector<View> views_of(const std::vector<Camera>& cameras, const LidarScan& scan) {
+  std::vector<View> views;
+  for (const Camera& camera : cameras)
+    views.push_back({&camera, camera.T_vehicle_camera.inverse() * scan.T_vehicle_lidar});
+  return views;
 }
 
-bool in_view(const std::vector<Camera>& cameras, const LidarScan& scan,
-             const Eigen::Vector3d& point_in_lidar) {
-  return std::any_of(cameras.begin(), cameras.end(),
-                     [&](const Camera& camera) { return in_view(camera, scan, point_in_lidar); });
+bool in_view(const View& view, const Eigen::Vector3d& point_in_lidar) {
+  return project(view.camera->model, view.T_camera_lidar * point_in_lidar).has_value();
+}
+
+bool in_view(const std::vector<View>& views, const Eigen::Vector3d& point_in_lidar) {
+  return std::any_of(views.begin(), views.end(),
+                     [&](const View& view) { return in_view(view, point_in_lidar); });
 }
 
 std::vector<int> in_scope(const std::vector<ObjectReference>& objects, const LidarScan& key,
                           const Pose& T_ego, const std::vector<Camera>& cameras,
                           const EvaluationOptions& options) {
+  const std::vector<View> views = views_of(cameras, key);
   std::vector<int> which;
   for (std::size_t i = 0; i < objects.size(); ++i) {
     const Eigen::Vector3d& centre = objects[i].motion.centroid_k;
-    const bool seen =
-        options.all_around || cameras.empty() || in_view(cameras, key, T_ego * centre);
+    const bool seen = options.all_around || cameras.empty() || in_view(views, T_ego * centre);
     if (seen && centre.head<2>().norm() <= options.max_range_m)
       which.push_back(static_cast<int>(i));
   }

@@ -21,14 +21,10 @@ LabelJudge::LabelJudge(const Truth& truth, const EvaluationOptions& options,
   std::sort(real_stamps_.begin(), real_stamps_.end());
 }
 
-void LabelJudge::take_key(const LidarScan& key, const LidarScan* previous) {
+void LabelJudge::take_key(const LidarScan& key, const LastMotions* last_motions) {
   key_ = &key;
   clusters_ = objects_by_clusters(key);
-  last_motions_.reset();
-  if (previous == nullptr || !(previous->stamp < key.stamp)) return;
-  if (const auto T_key_previous = true_ego_motion(truth_, *previous, key.stamp))
-    last_motions_.emplace(*previous, T_key_previous->inverse(),
-                          seconds_between(previous->stamp, key.stamp));
+  last_motions_ = last_motions;
 }
 
 bool LabelJudge::at_real_scan(Stamp stamp) const {
@@ -50,7 +46,7 @@ void LabelJudge::note(Stamp stamp, Stamp told_at) {
   instant->told_at = told_at.time_since_epoch().count();
   const Pose T_ego = instant->T_lidar_k_lidar_t.inverse();
   const auto seen = in_scope(clusters_, *key_, T_ego, cameras_, options_);
-  if (last_motions_) last_motions_->find(clusters_, seen, *key_);
+  if (last_motions_ != nullptr) last_motions_->find(clusters_, seen, *key_);
   const auto rows = constant_velocity_rows(clusters_, seen, T_ego, instant->dt, instant->told_at,
                                            options_.moving);
   constant_velocity_.insert(constant_velocity_.end(), rows.begin(), rows.end());

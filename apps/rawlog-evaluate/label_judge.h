@@ -17,8 +17,9 @@ class LabelJudge {
   LabelJudge(const Truth& truth, const EvaluationOptions& options,
              const std::vector<Camera>& cameras, std::vector<Stamp> real_stamps);
 
-  /// The key scan of the instants to come. @param previous null if there is none.
-  void take_key(const LidarScan& key, const LidarScan* previous);
+  /// The key scan of the instants to come.
+  /// @param last_motions to the scan before; null if there is none. Both must stay until the next.
+  void take_key(const LidarScan& key, const LastMotions* last_motions);
   /// @param told_at the virtual scan's stamp in the log. @param stamp the instant that it is of.
   void note(Stamp stamp, Stamp told_at);
 
@@ -41,7 +42,7 @@ class LabelJudge {
   std::vector<Stamp> real_stamps_;
   const LidarScan* key_ = nullptr;
   std::vector<ObjectReference> clusters_;  // of the key scan
-  std::optional<LastMotions> last_motions_;
+  const LastMotions* last_motions_ = nullptr;
   std::vector<LabelledInstant> instants_;
   std::vector<ReportedObject> constant_velocity_;
   int num_unlabelled_ = 0;

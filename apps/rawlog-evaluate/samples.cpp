@@ -53,11 +53,11 @@ std::uint64_t seed_of(int seed, bool of_reference) {
 void measure_scene(const PerRow<Points>& clouds, const LidarScan& reference,
                    const std::vector<Camera>& cameras, const EvaluationOptions& options,
                    ScanResult& result) {
+  const std::vector<View> views = views_of(cameras, reference);
   const auto sampled = [&](const Points& cloud, std::uint64_t seed) {
     Points points;
     for (const auto& point : sample_points(cloud, options.protocol->num_points, seed))
-      if (cameras.empty() || in_view(cameras.front(), reference, point.cast<double>()))
-        points.push_back(point);
+      if (views.empty() || in_view(views.front(), point.cast<double>())) points.push_back(point);
     return points;
   };
   for (int seed = 0; seed < options.num_seeds; ++seed) {

@@ -18,28 +18,34 @@ ScanSet scan_set(const ScanToJudge& given, const LidarScan& real) {
 }  // namespace
 
 ScanQueue::~ScanQueue() {
-  group_.cancel();
-  group_.wait();
+  for (Task& task : tasks_) {
+    task.group.cancel();
+    task.group.wait();
+  }
 }
 
 void ScanQueue::add(ScanToJudge scan) {
-  if (tasks_.size() == kMostTasks) finish();
-  LidarScan real = std::move(scan.reference.scan);
-  Task& task = tasks_.emplace_back(Task{std::move(scan), std::move(real), {}});
-  group_.run([this, &task] {
+  if (tasks_.size() == kMostTasks) take_first();
+  Task& task = tasks_.emplace_back();
+  task.given = std::move(scan);
+  task.real = std::move(task.given.reference.scan);
+  task.group.run([this, &task] {
     task.result = evaluate_scan(scan_set(task.given, task.real), std::move(task.given.reference),
                                 cameras_, job_.options);
   });
 }
 
+void ScanQueue::take_first() {
+  Task& task = tasks_.front();
+  task.group.wait();
+  results_.push_back(std::move(task.result));
+  if (job_.on_scan)
+    job_.on_scan(scan_set(task.given, task.real), results_.back(), task.given.pictures);
+  tasks_.pop_front();
+}
+
 void ScanQueue::finish() {
-  group_.wait();
-  for (Task& task : tasks_) {
-    results_.push_back(std::move(task.result));
-    if (job_.on_scan)
-      job_.on_scan(scan_set(task.given, task.real), results_.back(), task.given.pictures);
-  }
-  tasks_.clear();
+  while (!tasks_.empty()) take_first();
 }
 
 }  // namespace lidar_upsampling

@@ -42,13 +42,15 @@ class ScanQueue {
     ScanToJudge given;
     LidarScan real;
     ScanResult result;
+    tbb::task_group group;
   };
+
+  void take_first();
 
   const EvaluationJob& job_;
   const std::vector<Camera>& cameras_;
   std::vector<ScanResult>& results_;
   std::deque<Task> tasks_;
-  tbb::task_group group_;
 };
 
 }  // namespace lidar_upsampling

@@ -14,12 +14,23 @@ namespace {
 constexpr double kResidualSigma =
     0.03;  // m, of a good match: what the soft constraints weigh against
 
+/// @param last of the step before, or -1: no match is farther than it, which need not be searched.
+PointIndex::Neighbor match_of(const ObjectFit& problem, const Eigen::Vector3f& point, int last) {
+  const auto reach = static_cast<float>(problem.options.max_correspondence_m);
+  float sq_bound = reach * reach;
+  if (last >= 0) {
+    const float sq_last = (problem.target.points()[last] - point).squaredNorm();
+    sq_bound = std::min(sq_bound, 1.001F * sq_last + 1e-6F);  // a thousandth more, for rounding
+  }
+  return problem.target.nearest(point, sq_bound);
+}
+
 /// Adds one point's match: across the surface with full weight, along it with little.
+/// @param match in and out, of the step before and of this one; -1: none.
 void add_match(const ObjectFit& problem, const Eigen::Vector3d& point, const Eigen::Vector3d& pivot,
-               double scale, Matrix6d& H, Twist& b) {
-  const double reach = problem.options.max_correspondence_m;
-  const auto nearest =
-      problem.target.nearest(point.cast<float>(), static_cast<float>(reach * reach));
+               double scale, int& match, Matrix6d& H, Twist& b) {
+  const auto nearest = match_of(problem, point.cast<float>(), match);
+  match = nearest.index;
   if (nearest.index < 0) {
     return;
   }
@@ -64,14 +75,15 @@ void add_level(const ObjectFit& problem, const Pose& T, Matrix6d& H, Twist& b) {
 Fitted converge(const ObjectFit& problem, const Pose& guess, double stop) {
   Pose T = guess;
   double scale = 4 * problem.options.kernel_m;
+  std::vector<int> matches(problem.points.size(), -1);
   for (int i = 0; i < problem.options.max_iterations; ++i) {
     Matrix6d H = 1e-9 * Matrix6d::Identity();
     Twist b = Twist::Zero();
     const Eigen::Vector3d pivot = T * problem.centroid;
-    for (const auto& point : problem.points) {
-      const Eigen::Vector3d place = T * point.cast<double>();
+    for (std::size_t j = 0; j < matches.size(); ++j) {
+      const Eigen::Vector3d place = T * problem.points[j].cast<double>();
       if (sight_in(problem, place.cast<float>()) == Sight::hidden) continue;
-      add_match(problem, place, pivot, scale, H, b);
+      add_match(problem, place, pivot, scale, matches[j], H, b);
     }
     add_level(problem, T, H, b);
     const Twist step = H.ldlt().solve(b);
