@@ -121,7 +121,7 @@ elif [ "$by" = labels ]; then
   mv "$work/moved.txt" "$work/run.txt"
   mv "$work/moved.csv" "$work/run.csv"
 else
-  measured moved "$@" -- "${every_point[@]}"
+  measured moved --no-chamfer "$@" -- "${every_point[@]}"
   touch "$work"/on-beams.{txt,csv}
   [ "$by" = motions ] || measured on-beams "$@" --
   awk -v RS= -v clouds='^(Chamfer|protocol|running time)' -v beaten='beats ours: Chamfer' '

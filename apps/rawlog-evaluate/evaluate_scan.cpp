@@ -138,7 +138,7 @@ ScanResult evaluate_scan(const ScanSet& scans, InstantReference reference,
   measure_moving_points(sources, result);
   if (reference.by_truth) measure_flow(sources, options.max_range_m, result);
   const PerRow<Points> clouds = whole_clouds(sources, result.objects);
-  measure_clouds(clouds, scans.reference, cameras, result);
+  if (options.chamfer) measure_clouds(clouds, scans.reference, cameras, result);
   measure_samples(clouds, scans, cameras, options, result);
   return result;
 }

@@ -27,6 +27,7 @@ struct EvaluationOptions {
   bool all_around = false;    ///< objects that no camera sees count, too
   int min_points_truth = 10;  ///< of an object with a true box
   int num_seeds = 5;          ///< of the sampled measures
+  bool chamfer = true;        ///< whole clouds' distances, too
   bool exact_emd = false;     ///< the exact assignment beside the published approximation
   std::optional<Protocol> protocol;
   MovingOptions moving;

@@ -79,6 +79,9 @@ void add_options(CLI::App& app, Request& request) {
       ->take_all();
   app.add_flag("--no-paper", request.no_paper,
                "leave out row `paper`, which densifies the log anew");
+  app.add_flag_callback(
+      "--no-chamfer", [&job] { job.options.chamfer = false; },
+      "leave out the distances of whole clouds, which take a third of the time");
   app.callback([&request] {
     const std::size_t logs = request.inputs.size();
     const bool compares = !request.references.empty() || !request.truth_objects.empty();

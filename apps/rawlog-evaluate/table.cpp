@@ -76,8 +76,7 @@ std::string flow_block(const Figures& figures) {
 }
 
 std::string chamfer_block(const Figures& figures) {
-  std::string block = heading("Chamfer at full resolution, mean over scans",
-                              {"all m", "all m2", "view m", "view m2"});
+  std::string block;
   for (const Row row : kRows) {
     const RowFigures& f = figures.rows[row];
     if (f.chamfer_m.count == 0) continue;
@@ -86,7 +85,10 @@ std::string chamfer_block(const Figures& figures) {
              cell(true, f.chamfer_m2.mean, 4) + cell(seen, f.view_chamfer_m.mean, 4) +
              cell(seen, f.view_chamfer_m2.mean, 4) + "\n";
   }
-  return block;
+  if (block.empty()) return block;
+  return heading("Chamfer at full resolution, mean over scans",
+                 {"all m", "all m2", "view m", "view m2"}) +
+         block;
 }
 
 std::string edges_of(const Bin& bin, const std::string& unit) {

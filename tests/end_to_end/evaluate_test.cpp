@@ -54,6 +54,17 @@ TEST_F(Evaluation, withheld_scans_as_virtual_ones_score_zero) {
   EXPECT_LT(ours["static_objects_m"]["p95"], 1e-3);
 }
 
+TEST_F(Evaluation, without_clouds_objects_are_judged_as_with_them) {
+  densify(folder_, "");
+  const auto all = evaluate(folder_, "truth.rawlog", "--no-paper")["summary"]["ours"];
+  const auto objects =
+      evaluate(folder_, "truth.rawlog", "--no-paper --no-chamfer")["summary"]["ours"];
+  EXPECT_GT(all["chamfer_m"]["count"], 0);
+  EXPECT_EQ(objects["chamfer_m"]["count"], 0);
+  EXPECT_EQ(objects["moving_objects_m"], all["moving_objects_m"]);
+  EXPECT_EQ(objects["static_objects_m"], all["static_objects_m"]);
+}
+
 TEST_F(Evaluation, copies_of_the_last_scan_score_as_the_hold_row) {
   write_pretended(folder_, [](const auto& last, const auto&) { return last; });
   const auto errors = evaluate(folder_, "truth.rawlog",
