@@ -20,19 +20,6 @@ Points moved(const Points& points, const Pose& T) {
   return result;
 }
 
-Points seen_only(const Points& points, const std::vector<View>& views,
-                 std::vector<bool>* of_object = nullptr) {
-  Points result;
-  std::vector<bool> kept;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    if (!in_view(views, points[i].cast<double>())) continue;
-    result.push_back(points[i]);
-    if (of_object != nullptr) kept.push_back((*of_object)[i]);
-  }
-  if (of_object != nullptr) *of_object = std::move(kept);
-  return result;
-}
-
 /// By the ego-motion, objects by the row's own estimate.
 Points moved_with_objects(const RowSources& sources, const std::vector<ObjectResult>& objects,
                           Row row) {
@@ -44,6 +31,65 @@ Points moved_with_objects(const RowSources& sources, const std::vector<ObjectRes
       cloud[i] = (*object.estimates[row] * key[i].cast<double>()).cast<float>();
   }
   return cloud;
+}
+
+/// A cloud that is searched, and its part in the cameras' view.
+struct SearchedCloud {
+  SearchedCloud(const Points& points, const std::vector<View>& views)
+      : index(points), seen_index(seen_only(points, views, seen)) {}
+
+  [[nodiscard]] const Points& points() const { return index.points(); }
+
+  static Points seen_only(const Points& points, const std::vector<View>& views,
+                          std::vector<bool>& seen) {
+    Points part;
+    for (const auto& point : points) {
+      seen.push_back(in_view(views, point.cast<double>()));
+      if (seen.back()) part.push_back(point);
+    }
+    return part;
+  }
+
+  PointIndex index;
+  std::vector<bool> seen;
+  PointIndex seen_index;
+};
+
+/// Squared, of one cloud's points to another: of all to all, and of those in view to those in view.
+struct SqDistances {
+  std::vector<float> all, in_view;
+};
+
+/// @param beside distances to a cloud that is to count as a part of `to`.
+SqDistances sq_distances(const SearchedCloud& from, const SearchedCloud& to,
+                         const SqDistances* beside = nullptr) {
+  const auto nearest = nearest_neighbors(from.points(), to.index, beside ? &beside->all : nullptr);
+  SqDistances result;
+  Points searched;
+  std::vector<float> searched_beside;
+  std::vector<std::size_t> places;
+  for (std::size_t i = 0; i < nearest.size(); ++i) {
+    result.all.push_back(nearest[i].sq_distance);
+    if (!from.seen[i]) continue;
+    const std::size_t place = result.in_view.size();
+    result.in_view.push_back(nearest[i].sq_distance);
+    // What is nearest of all and in view is nearest of what is in view.
+    if (nearest[i].index >= 0 && to.seen[nearest[i].index]) continue;
+    searched.push_back(from.points()[i]);
+    if (beside != nullptr) searched_beside.push_back(beside->in_view[place]);
+    places.push_back(place);
+  }
+  const auto seen = nearest_neighbors(searched, to.seen_index, beside ? &searched_beside : nullptr);
+  for (std::size_t i = 0; i < places.size(); ++i) result.in_view[places[i]] = seen[i].sq_distance;
+  return result;
+}
+
+CloudResult chamfers_of(const SqDistances& forward, const SqDistances& backward) {
+  CloudResult result;
+  result.full = chamfer_of(forward.all, backward.all);
+  if (!forward.in_view.empty() && !backward.in_view.empty())
+    result.in_view = chamfer_of(forward.in_view, backward.in_view);
+  return result;
 }
 
 /// The points of an object of the scan, or the others.
@@ -58,39 +104,23 @@ Points part_of(const Points& cloud, const std::vector<bool>& of_object, bool obj
 /// once for all of them.
 class SharedScene {
  public:
-  /// @param ego the whole scan moved by the ego-motion.
-  /// @param of_object its points that rows move otherwise.
-  SharedScene(const Points& ego, const std::vector<bool>& of_object, const Points& reference,
-              const PointIndex& reference_index)
-      : reference_(reference), reference_index_(reference_index) {
-    const Points scene = part_of(ego, of_object, false);
-    forward_ = nearest_sq_distances(scene, reference_index);
-    if (scene.empty())
-      backward_.assign(reference.size(), std::numeric_limits<float>::max());
-    else
-      backward_ = nearest_sq_distances(reference, PointIndex(scene));
-  }
+  SharedScene(const SearchedCloud& scene, const SearchedCloud& reference)
+      : reference_(reference),
+        forward_(sq_distances(scene, reference)),
+        backward_(sq_distances(reference, scene)) {}
 
-  [[nodiscard]] bool empty() const { return forward_.empty(); }
-
-  /// @param objects where a row puts the others. @throw std::invalid_argument nothing at all.
-  [[nodiscard]] Chamfer chamfer(const Points& objects) const {
-    if (objects.empty()) return chamfer_of(forward_, backward_);
-    std::vector<float> forward = nearest_sq_distances(objects, reference_index_);
-    forward.insert(forward.end(), forward_.begin(), forward_.end());
-    return chamfer_of(forward, nearest_sq_distances(reference_, PointIndex(objects), &backward_));
+  /// @param objects where a row puts the others.
+  [[nodiscard]] CloudResult with(const SearchedCloud& objects) const {
+    SqDistances forward = sq_distances(objects, reference_);
+    forward.all.insert(forward.all.end(), forward_.all.begin(), forward_.all.end());
+    forward.in_view.insert(forward.in_view.end(), forward_.in_view.begin(), forward_.in_view.end());
+    return chamfers_of(forward, sq_distances(reference_, objects, &backward_));
   }
 
  private:
-  const Points& reference_;
-  const PointIndex& reference_index_;
-  std::vector<float> forward_, backward_;
+  const SearchedCloud& reference_;
+  SqDistances forward_, backward_;
 };
-
-Chamfer chamfer_to(const Points& cloud, const Points& reference, const PointIndex& index) {
-  return chamfer_of(nearest_sq_distances(cloud, index),
-                    nearest_sq_distances(reference, PointIndex(cloud)));
-}
 
 bool shares_scene(Row row) {
   return row == Row::ego || row == Row::constant_velocity || row == Row::oracle;
@@ -122,35 +152,20 @@ PerRow<Points> whole_clouds(const RowSources& sources, const std::vector<ObjectR
 void measure_clouds(const PerRow<Points>& clouds, const LidarScan& reference,
                     const std::vector<Camera>& cameras, ScanResult& result) {
   if (reference.points.empty()) return;
-  const Points& ego = clouds[Row::ego];
-  const PointIndex index(reference.points);
-  const std::vector<bool> of_object = points_of_objects(ego.size(), result.objects);
-  const SharedScene scene(ego, of_object, reference.points, index);
   const std::vector<View> views = views_of(cameras, reference);
-  const Points seen = seen_only(reference.points, views);
-  const PointIndex seen_index(seen);
-  std::vector<bool> seen_of_object = of_object;
-  const Points ego_seen = seen_only(ego, views, &seen_of_object);
-  std::optional<SharedScene> seen_scene;
-  if (!seen.empty()) seen_scene.emplace(ego_seen, seen_of_object, seen, seen_index);
+  const SearchedCloud truth(reference.points, views);
+  const std::vector<bool> of_object = points_of_objects(clouds[Row::ego].size(), result.objects);
+  const SharedScene scene({part_of(clouds[Row::ego], of_object, false), views}, truth);
   // Nothing is sampled here: the floor is zero, and left out.
   tbb::parallel_for(std::size_t{1}, kRows.size(), [&](std::size_t i) {
     const Row row = kRows[i];
     if (clouds[row].empty()) return;
-    CloudResult cloud;
     if (shares_scene(row)) {
-      const Points objects = part_of(clouds[row], of_object, true);
-      cloud.full = scene.chamfer(objects);
-      const Points objects_seen = seen_only(objects, views);
-      if (seen_scene && !(seen_scene->empty() && objects_seen.empty()))
-        cloud.in_view = seen_scene->chamfer(objects_seen);
+      result.clouds[row] = scene.with({part_of(clouds[row], of_object, true), views});
     } else {
-      cloud.full = chamfer_to(clouds[row], reference.points, index);
-      const Points own_seen = seen_only(clouds[row], views);
-      if (!seen.empty() && !own_seen.empty())
-        cloud.in_view = chamfer_to(own_seen, seen, seen_index);
+      const SearchedCloud cloud(clouds[row], views);
+      result.clouds[row] = chamfers_of(sq_distances(cloud, truth), sq_distances(truth, cloud));
     }
-    result.clouds[row] = cloud;
   });
 }
 

@@ -37,16 +37,16 @@ class NearestOfRow {
  public:
   explicit NearestOfRow(const PointIndex& to) : to_(to) {}
 
-  float sq_distance(const Eigen::Vector3f& point, float limit) {
+  PointIndex::Neighbor of(const Eigen::Vector3f& point, float limit) {
     const float reach = last_distance_ + (point - last_).norm();
     // A thousandth more, for rounding.
     const float bound = std::min(limit, 1.001F * reach * reach + 1e-6F);
     PointIndex::Neighbor found = to_.nearest(point, bound);
     if (found.index < 0 && bound < limit) found = to_.nearest(point, limit);
-    if (found.index < 0) return limit;
+    if (found.index < 0) return {-1, limit};
     last_ = point;
     last_distance_ = std::sqrt(found.sq_distance);
-    return found.sq_distance;
+    return found;
   }
 
  private:
@@ -55,18 +55,26 @@ class NearestOfRow {
   float last_distance_ = std::sqrt(std::numeric_limits<float>::max()) / 4;
 };
 
+std::vector<float> sq_distances_of(const std::vector<PointIndex::Neighbor>& neighbors) {
+  std::vector<float> sq_distances;
+  sq_distances.reserve(neighbors.size());
+  for (const auto& neighbor : neighbors) sq_distances.push_back(neighbor.sq_distance);
+  return sq_distances;
+}
+
 }  // namespace
 
-std::vector<float> nearest_sq_distances(const std::vector<Eigen::Vector3f>& from,
-                                        const PointIndex& to, const std::vector<float>* beside) {
-  std::vector<float> sq_distances(from.size());
+std::vector<PointIndex::Neighbor> nearest_neighbors(const std::vector<Eigen::Vector3f>& from,
+                                                    const PointIndex& to,
+                                                    const std::vector<float>* beside) {
+  std::vector<PointIndex::Neighbor> neighbors(from.size());
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, from.size(), 1024), [&](const auto& range) {
     NearestOfRow nearest(to);
     for (std::size_t i = range.begin(); i < range.end(); ++i)
-      sq_distances[i] = nearest.sq_distance(
-          from[i], beside != nullptr ? (*beside)[i] : std::numeric_limits<float>::max());
+      neighbors[i] =
+          nearest.of(from[i], beside != nullptr ? (*beside)[i] : std::numeric_limits<float>::max());
   });
-  return sq_distances;
+  return neighbors;
 }
 
 Chamfer chamfer_of(const std::vector<float>& forward_sq, const std::vector<float>& backward_sq) {
@@ -85,8 +93,8 @@ Chamfer compute_chamfer(const std::vector<Eigen::Vector3f>& first,
     return chamfer_of(std::vector<float>(first.size()), std::vector<float>(second.size()));
   std::optional<PointIndex> index_first, index_second;
   tbb::parallel_invoke([&] { index_first.emplace(first); }, [&] { index_second.emplace(second); });
-  return chamfer_of(nearest_sq_distances(first, *index_second),
-                    nearest_sq_distances(second, *index_first));
+  return chamfer_of(sq_distances_of(nearest_neighbors(first, *index_second)),
+                    sq_distances_of(nearest_neighbors(second, *index_first)));
 }
 
 }  // namespace lidar_upsampling

@@ -27,14 +27,15 @@ struct Chamfer {
 [[nodiscard]] Chamfer compute_chamfer(const std::vector<Eigen::Vector3f>& first,
                                       const std::vector<Eigen::Vector3f>& second);
 
-/// @brief Squared distance of each point to the nearest one of a cloud, in parallel.
-/// @param beside where given, of each point to another cloud: the smaller of both is told, so that
-/// a cloud that differs in few points need not be searched anew.
-[[nodiscard]] std::vector<float> nearest_sq_distances(const std::vector<Eigen::Vector3f>& from,
-                                                      const PointIndex& to,
-                                                      const std::vector<float>* beside = nullptr);
+/// @brief The nearest point of a cloud to each point, in parallel.
+/// @param beside where given, squared distances of each point to another cloud. Where that is as
+/// near, this distance is told, with no index: a cloud that differs in few points need not be
+/// searched anew.
+[[nodiscard]] std::vector<PointIndex::Neighbor> nearest_neighbors(
+    const std::vector<Eigen::Vector3f>& from, const PointIndex& to,
+    const std::vector<float>* beside = nullptr);
 
-/// @brief From the distances of each direction.
+/// @brief From the squared distances of each direction.
 /// @throw std::invalid_argument one of them is empty.
 [[nodiscard]] Chamfer chamfer_of(const std::vector<float>& forward_sq,
                                  const std::vector<float>& backward_sq);
