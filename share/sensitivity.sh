@@ -27,6 +27,7 @@ parameters() {
           "") ;;
           *"whole number"*)
             changed=$(awk -v value="$changed" 'BEGIN { printf "%.0f", value }')
+            [[ $(refusal "$setting=$changed") != *"odd number"* ]] || changed=$((changed + 1))
             [ "$changed" != "$value" ] && [ -z "$(refusal "$setting=$changed")" ] || changed=- ;;
           *) changed=- ;;
         esac

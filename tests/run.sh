@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# The whole test suite on a fresh machine: packages, format, build, unit and end-to-end tests, then the
-# unit tests again under the address and undefined-behaviour sanitizers.
+# The whole test suite on a fresh machine: packages, format, build, end-to-end and slow tests as users' tools are built,
+# then the unit tests under the address and undefined-behaviour sanitizers.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 

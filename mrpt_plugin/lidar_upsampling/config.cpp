@@ -68,6 +68,7 @@ class Loader : public SettingVisitor {
     if (number_read != std::floor(number_read))
       fail(key, to_text(number_read), "a whole number is expected");
     value = static_cast<int>(number_read);
+    if (range.odd && value % 2 == 0) fail(key, std::to_string(value), "an odd number is expected");
   }
 
   void flag(const char* key, bool& value, const char*) override {

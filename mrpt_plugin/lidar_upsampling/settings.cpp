@@ -188,7 +188,7 @@ void visit_vision(Config& c, SettingVisitor& v) {
          "patches of points on depth edges lie a little beside them, on their object");
   KltOptions& k = c.klt;
   v.section("klt", "Following points from image to image (Kanade-Lucas-Tomasi).");
-  v.integer("window_px", k.window_px, {5, 63}, "side of the patch, odd");
+  v.integer("window_px", k.window_px, {5, 63, /*odd=*/true}, "side of the patch, odd");
   v.integer("pyramid_levels", k.pyramid_levels, {0, 8}, "halvings above the full picture");
   v.integer("max_iterations", k.max_iterations, {1, 1000}, "per level");
   v.number("epsilon_px", k.epsilon_px, kPositive, "a step this short ends the iteration");

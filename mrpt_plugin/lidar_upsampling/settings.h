@@ -16,6 +16,7 @@ struct Config;
 struct Range {
   double min = -std::numeric_limits<double>::infinity();
   double max = std::numeric_limits<double>::infinity();
+  bool odd = false;  ///< of a whole number: an even one is not allowed
 };
 
 /// The words that a setting may take.

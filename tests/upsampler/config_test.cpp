@@ -78,6 +78,8 @@ TEST(Config, a_bad_value_is_named_with_what_is_expected) {
             std::string::npos);
   EXPECT_NE(error_of("[klt]\nwindow_px = 7.5\n").find("a whole number"), std::string::npos);
   EXPECT_NE(error_of("[klt]\nwindow_px = 999\n").find("between"), std::string::npos);
+  EXPECT_NE(error_of("[klt]\nwindow_px = 10\n").find("[klt] window_px = '10': an odd number"),
+            std::string::npos);
   EXPECT_NE(error_of("[lidar_upsampling]\nobjects = hide\n").find("keep, drop"), std::string::npos);
   EXPECT_NE(error_of("[object_motion]\nstatic_test = maybe\n").find("true or false"),
             std::string::npos);
