@@ -79,6 +79,7 @@ std::vector<ObjectReference> objects_by_truth(const LidarScan& key, const Truth&
 
 std::vector<View> views_of(const std::vector<Camera>& cameras, const LidarScan& scan) {
   std::vector<View> views;
+  views.reserve(cameras.size());
   for (const Camera& camera : cameras)
     views.push_back({&camera, camera.T_vehicle_camera.inverse() * scan.T_vehicle_lidar});
   return views;

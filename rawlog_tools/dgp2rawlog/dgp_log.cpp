@@ -47,6 +47,7 @@ std::vector<PoseSample> poses_of(const Scene& scene) {
     poses.emplace(picture.file.stamp, picture.file.T_world_vehicle);
   }
   std::vector<PoseSample> samples;
+  samples.reserve(poses.size());
   for (const auto& [stamp, T_world_vehicle] : poses) samples.push_back({stamp, T_world_vehicle});
   return samples;
 }

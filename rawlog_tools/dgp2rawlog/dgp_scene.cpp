@@ -126,7 +126,7 @@ class SceneReader {
     for (const std::string& name : cameras_) {
       if (found_.count(name) > 0) continue;
       std::string known;
-      for (const std::string& other : found_) known += (known.empty() ? "" : ", ") + other;
+      for (const std::string& other : found_) known.append(known.empty() ? "" : ", ").append(other);
       throw std::invalid_argument("no camera " + name + "; there are: " + known);
     }
   }
