@@ -214,7 +214,7 @@ void leave_the_picture_alone(Config& config) {
   config.resample = "none";
   config.point_tracks.off_edges = false;
   ObjectMotionOptions& options = config.object_motion;
-  options.static_test = options.drop_covered = options.part_standing = false;
+  options.world_tracks = options.static_test = options.drop_covered = options.part_standing = false;
   options.prior.from_scans = options.prior.from_images = options.prior.ground = false;
   options.min_points = 20;
   options.pose.min_inliers = 15;

@@ -21,6 +21,7 @@
 #include "lidar_upsampling/scan/compose.h"
 #include "lidar_upsampling/scan/resample.h"
 #include "lidar_upsampling/scan/sweep.h"
+#include "lidar_upsampling/tracks/object_tracks.h"
 #include "lidar_upsampling/vision/klt.h"
 
 namespace lidar_upsampling {
@@ -64,6 +65,7 @@ struct Config : public mrpt::config::CLoadableOptions {
   PointTrackOptions point_tracks;
   KltOptions klt;
   ObjectMotionOptions object_motion;
+  TrackOptions object_tracks;
   ResampleOptions resampling;
   SweepOptions sweep;
 

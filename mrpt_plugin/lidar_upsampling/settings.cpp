@@ -221,6 +221,23 @@ void visit_motion(Config& c, SettingVisitor& v) {
            "what ego-motion and calibration may be wrong on the picture");
   v.number("points_per_observation", o.pose.points_per_observation, {1, 1000},
            "neighbouring points err alike: so many count as one");
+  v.flag("world_tracks", o.world_tracks, "each object one track in the world");
+  TrackOptions& t = c.object_tracks;
+  v.number("moving_prior", t.moving_prior, {0.001, 0.999}, "of a road user that nothing else is known of");
+  v.number("loss_ratio", t.loss_ratio, kPositive, "how much worse a parked object that jumps is than a mover left standing");
+  v.number("memory_s", t.memory_s, kPositive, "log-odds of moving decay by this");
+  v.number("birth_density_per_m2", t.birth_density, kPositive, "new objects, from scan to scan");
+  v.number("extent_error", t.extent_error, kPositive, "share of its length by which what is seen of an object shifts");
+  v.number("outlier_share", t.outlier_share, kPositive, "of registrations");
+  v.number("outlier_density_per_m2", t.outlier_density, kPositive, "of where they lead");
+  v.number("common_error_px", t.static_tolerance_px, kPositive, "what ego-motion and calibration may be wrong on the picture");
+  v.number("speed_sigma_m_s", t.noise.unknown_speed_sigma, kPositive, "of an object seen for the first time");
+  v.number("acceleration_density", t.noise.acceleration, kPositive, "m^2/s^3");
+  v.number("yaw_density", t.noise.yaw_acceleration, kPositive, "rad^2/s^3");
+  v.number("yaw_sigma", t.noise.unknown_yaw_rate_sigma, kPositive, "rad/s");
+  v.number("point_sigma_px", t.points.sigma_px, kPositive, "expected scatter");
+  v.number("point_dof", t.points.degrees_of_freedom, kPositive, "Student's t");
+  v.number("correlated_points", t.points.points_per_observation, kPositive, "so many count as one");
   MotionPriorOptions& p = o.prior;
   v.flag("drop_covered", o.drop_covered,
          "points that a nearer moving object covers by now say nothing");

@@ -15,14 +15,6 @@
 
 namespace lidar_upsampling {
 
-/// What one image says.
-struct ImageResult {
-  Stamp stamp, instant;
-  Camera camera;
-  EgoStep ego;  ///< T_lidar_t_lidar_k
-  std::vector<ObjectMotion> objects;
-};
-
 namespace {
 
 double ms_between(Stamp a, Stamp b) { return std::abs(seconds_between(a, b)) * 1e3; }
@@ -59,6 +51,7 @@ void LidarUpsampler::expect_cameras(const std::vector<std::string>& labels) {
 std::optional<VirtualScan> LidarUpsampler::insert_scan(LidarScan scan) {
   auto waiting = flush();
   if (key_ && scan.stamp <= key_->scan.stamp) return waiting;  // out of order: of no use any more
+  if (key_ && config_.object_motion.world_tracks) find_objects(nullptr, nullptr);
   auto key = std::make_unique<KeyScan>();
   const bool is_next = next_ && next_->stamp == scan.stamp;
   const Pose T_scan_key = take_up(scan, is_next ? &next_->T_lidar_next_lidar_k : nullptr);
@@ -129,8 +122,13 @@ std::optional<VirtualScan> LidarUpsampler::flush() {
     for (const ObjectMotion& object : result.objects)
       motion.objects.push_back(brought_to(newest, result, object, key_->scan.stamp));
   }
-  learn(motion.objects, newest.instant);
-  if (found_) keep(motion.objects, newest.instant);
+  if (config_.object_motion.world_tracks) {
+    const Stopwatch watch(timing_, "object motion");
+    motion.objects = tracked_motions(group, newest);
+  } else {
+    learn(motion.objects, newest.instant);
+    if (found_) keep(motion.objects, newest.instant);
+  }
 
   Stopwatch watch(timing_, "composition");
   std::optional<VirtualScan> of_next;
@@ -184,6 +182,10 @@ void LidarUpsampler::start(CameraView& view, const std::shared_ptr<const Picture
     const Stopwatch watch(timing_, "ground and clusters");
     key_->segments = segment_scan(key_->scan, config_.segments);
   }
+  if (config_.object_motion.world_tracks) {
+    start_tracked(view, anchor);
+    return;
+  }
   const Stopwatch watch(timing_, "candidates");
   const auto step = ego_motion_.step(key_->scan.stamp, anchor->instant);
   const auto expected = movers_of_later_scans(
@@ -205,8 +207,13 @@ void LidarUpsampler::process(CameraView& view, const Picture& picture, Effort ef
   if (!view.anchor) start(view, view.last);
 
   ImageResult result{
-      picture.image.stamp, picture.instant, picture.image.camera, ego_step(picture.instant), {}};
+      picture.image.stamp, picture.instant, picture.image.camera, ego_step(picture.instant), {}, {}, {}, {}};
   const bool looks = effort == Effort::full;
+  if (config_.object_motion.world_tracks) {
+    if (looks) follow_tracked(view, picture, result);
+    group_.push_back(std::move(result));
+    return;
+  }
   if (looks) {
     const Stopwatch watch(timing_, "point tracking");
     follow_view(view, picture, key_->scan, result.ego.T_to_from, config_);

@@ -12,6 +12,7 @@
 #include "lidar_upsampling/ego/ego_motion.h"
 #include "lidar_upsampling/objects/mover_history.h"
 #include "lidar_upsampling/se3.h"
+#include "lidar_upsampling/tracks/object_tracks.h"
 #include "lidar_upsampling/types.h"
 
 namespace lidar_upsampling {
@@ -97,6 +98,12 @@ class LidarUpsampler {
   [[nodiscard]] Pose take_up(LidarScan& scan, const Pose* known_step);
   [[nodiscard]] Pose scan_step(const LidarScan& next);
   void learn(const std::vector<ObjectMotion>& objects, Stamp instant);
+  // With tracks in the world (upsampler_tracks.cpp).
+  void find_objects(const Picture* anchor, CameraView* view);
+  void start_tracked(CameraView& view, const std::shared_ptr<const Picture>& anchor);
+  void follow_tracked(CameraView& view, const Picture& picture, ImageResult& result);
+  [[nodiscard]] std::vector<ObjectMotion> tracked_motions(const std::vector<ImageResult>& group,
+                                                          const ImageResult& newest);
   void keep(const std::vector<ObjectMotion>& objects, Stamp instant);
   [[nodiscard]] KnownMotion known_at(const ObjectMotion& object, Stamp instant) const;
 
@@ -109,6 +116,7 @@ class LidarUpsampler {
   std::map<std::string, std::unique_ptr<CameraView>> views_;
   std::vector<ImageResult> group_;            ///< of the instant under way
   std::map<int, KnownMotion> known_motions_;  ///< by track id
+  TrackStore store_;
   std::optional<MoverHistory> found_;         ///< where it is kept
   std::map<int, Mover> movers_;               ///< of the key scan, by track id
   MoverHistory history_;                      ///< of another run

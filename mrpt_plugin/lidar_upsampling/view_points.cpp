@@ -2,7 +2,12 @@
 // Copyright (c) 2026, the lidar_upsampling authors
 #include "lidar_upsampling/view_points.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
+#include <array>
+#include <limits>
+#include <optional>
 
 namespace lidar_upsampling {
 namespace {
@@ -90,6 +95,168 @@ void choose_points(CameraView& view, const AnchoredScan& anchored, const cv::Mat
   }
   if (with_static_points)
     add_static_points(view.points, anchored, view.candidates, scan, texture, config.static_points);
+}
+
+namespace {
+
+constexpr double kFarOutside = -1e4;
+
+cv::Point2f pixel_of(const CameraView& view, std::size_t i, const Pose& T_camera_t_lidar_k,
+                     const Pose& T_mov) {
+  const auto pixel = project(view.camera.model, T_camera_t_lidar_k * (T_mov * view.points.point[i]),
+                             kFarOutside);
+  return pixel ? cv::Point2f(static_cast<float>(pixel->x()), static_cast<float>(pixel->y()))
+               : view.points.last_px[i];
+}
+
+/// Follows some points once more; each owner keeps what finds more of its points.
+void follow_again(CameraView& view, const Picture& picture, const std::vector<std::size_t>& which,
+                  const std::vector<cv::Point2f>& guesses, std::size_t num_owners,
+                  const KltOptions& options) {
+  if (which.empty()) return;
+  PointTracks& points = view.points;
+  std::vector<cv::Point2f> from;
+  for (const std::size_t i : which) from.push_back(points.anchor_px[i]);
+  const KltResult again = track_points(view.anchor->pyramid, picture.pyramid, from, guesses, options);
+  std::vector<int> gained(num_owners, 0);
+  for (std::size_t j = 0; j < which.size(); ++j)
+    gained[points.owner[which[j]]] += again.tracked[j] - points.found[which[j]];
+  for (std::size_t j = 0; j < which.size(); ++j) {
+    const std::size_t i = which[j];
+    if (gained[points.owner[i]] <= 0) continue;
+    points.found[i] = again.tracked[j];
+    if (again.tracked[j] != 0) points.last_px[i] = again.points[j];
+  }
+}
+
+/// Patches on a picture a quarter as large, without their mean.
+class SmallPatches {
+ public:
+  static constexpr int kLevel = 2, kHalf = 2, kSide = 2 * kHalf + 1;
+  explicit SmallPatches(const ImagePyramid& pyramid)
+      : gray_(pyramid.levels()[2 * std::min(kLevel, pyramid.pyramid_levels())]),
+        scale_(1.F / static_cast<float>(1 << std::min(kLevel, pyramid.pyramid_levels()))) {}
+
+  /// @return false where it leaves the picture.
+  bool at(const cv::Point2f& pixel, float* patch) const {
+    const int u = cvRound(pixel.x * scale_), v = cvRound(pixel.y * scale_);
+    if (u < kHalf || v < kHalf || u + kHalf >= gray_.cols || v + kHalf >= gray_.rows) return false;
+    float mean = 0;
+    int k = 0;
+    for (int y = v - kHalf; y <= v + kHalf; ++y) {
+      const auto* row = gray_.ptr<std::uint8_t>(y);
+      for (int x = u - kHalf; x <= u + kHalf; ++x) mean += patch[k++] = row[x];
+    }
+    for (k = 0; k < kSide * kSide; ++k) patch[k] -= mean / (kSide * kSide);
+    return true;
+  }
+
+ private:
+  cv::Mat gray_;
+  float scale_;
+};
+
+/// The shift over ground that makes the patches look most alike.
+std::optional<Eigen::Vector3d> sought(const CameraView& view, const SmallPatches& anchor,
+                                      const SmallPatches& next,
+                                      const std::vector<std::size_t>& points,
+                                      const Pose& T_camera_t_lidar_k, const Ways& ways) {
+  constexpr std::size_t kEnough = 24;
+  constexpr float kOutside = 30;  // gray levels: as bad as what has nothing in common
+  constexpr int kArea = SmallPatches::kSide * SmallPatches::kSide;
+  std::vector<std::array<float, kArea>> patches;
+  std::vector<Eigen::Vector3d> places;
+  const std::size_t stride = 1 + points.size() / kEnough;
+  double depth = 0;
+  for (std::size_t j = 0; j < points.size(); j += stride) {
+    std::array<float, kArea> patch;
+    if (!anchor.at(view.points.anchor_px[points[j]], patch.data())) continue;
+    patches.push_back(patch);
+    places.push_back(ways.T_mov.front() * view.points.point[points[j]]);
+    depth += (T_camera_t_lidar_k * places.back()).z();
+  }
+  if (places.size() < 6) return {};
+  depth /= static_cast<double>(places.size());
+  // Steps of a pixel of the small picture, for what is to be within a patch's reach.
+  const double step = std::max(0.1, 8 * depth / view.camera.model.fx);
+  const int reach = static_cast<int>(std::min(25., ways.reach_m / step));
+  double least = std::numeric_limits<double>::infinity();
+  Eigen::Vector3d best = Eigen::Vector3d::Zero();
+  for (int ix = -reach; ix <= reach; ++ix) {
+    for (int iy = -reach; iy <= reach; ++iy) {
+      const Eigen::Vector3d shift(ix * step, iy * step, 0);
+      double sum = 0;
+      for (std::size_t j = 0; j < places.size(); ++j) {
+        std::array<float, kArea> patch;
+        const auto pixel = project(view.camera.model, T_camera_t_lidar_k * (places[j] + shift));
+        if (!pixel || !next.at({static_cast<float>(pixel->x()), static_cast<float>(pixel->y())},
+                               patch.data())) {
+          sum += kOutside;
+          continue;
+        }
+        float difference = 0;
+        for (int k = 0; k < kArea; ++k) difference += std::abs(patch[k] - patches[j][k]);
+        sum += std::min(kOutside, difference / kArea);
+      }
+      if (sum >= least) continue;
+      least = sum;
+      best = shift;
+    }
+  }
+  return best;
+}
+
+}  // namespace
+
+void follow_ways(CameraView& view, const Picture& picture, const Pose& T_camera_t_lidar_k,
+                 std::vector<Ways>& ways, const KltOptions& options) {
+  PointTracks& points = view.points;
+  std::vector<cv::Point2f> predicted(points.size());
+  std::vector<std::vector<std::size_t>> of_owner(ways.size());
+  std::size_t most = 1;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const int owner = points.owner[i];
+    predicted[i] = pixel_of(view, i, T_camera_t_lidar_k,
+                            owner < 0 ? Pose::Identity() : ways[owner].T_mov.front());
+    if (owner < 0) continue;
+    of_owner[owner].push_back(i);
+    most = std::max(most, ways[owner].T_mov.size());
+  }
+  follow_points(points, view.anchor->pyramid, picture.pyramid, predicted, options);
+  const auto follow_way = [&](std::size_t way, const std::vector<std::size_t>& owners) {
+    std::vector<std::size_t> which;
+    std::vector<cv::Point2f> guesses;
+    for (const std::size_t owner : owners)
+      for (const std::size_t i : of_owner[owner]) {
+        which.push_back(i);
+        guesses.push_back(pixel_of(view, i, T_camera_t_lidar_k, ways[owner].T_mov[way]));
+      }
+    follow_again(view, picture, which, guesses, ways.size(), options);
+  };
+  for (std::size_t way = 1; way < most; ++way) {
+    std::vector<std::size_t> owners;
+    for (std::size_t i = 0; i < ways.size(); ++i)
+      if (ways[i].T_mov.size() > way) owners.push_back(i);
+    follow_way(way, owners);
+  }
+  // Of what stands where it was sought most points are found again.
+  constexpr double kMost = 0.5;
+  std::vector<std::size_t> lost;
+  for (std::size_t owner = 0; owner < ways.size(); ++owner) {
+    double found = 0;
+    for (const std::size_t i : of_owner[owner]) found += points.found[i];
+    if (ways[owner].reach_m > 0 && of_owner[owner].size() >= 6 &&
+        found < kMost * static_cast<double>(of_owner[owner].size()))
+      lost.push_back(owner);
+  }
+  const SmallPatches from(view.anchor->pyramid), to(picture.pyramid);
+  tbb::parallel_for(std::size_t{0}, lost.size(), [&](std::size_t j) {
+    Ways& way = ways[lost[j]];
+    const auto shift = sought(view, from, to, of_owner[lost[j]], T_camera_t_lidar_k, way);
+    way.T_mov.push_back(way.T_mov.front());
+    if (shift) way.T_mov.back().pretranslate(*shift);
+  });
+  for (const std::size_t owner : lost) follow_way(ways[owner].T_mov.size() - 1, {owner});
 }
 
 void follow_view(CameraView& view, const Picture& picture, const LidarScan& key_scan,

@@ -46,15 +46,6 @@ class ViewEdge {
   bool has_sides_ = false;
 };
 
-const char* class_by_size(const ClusterExtent& extent) {
-  if (extent.length < 1.1F && within(extent.top, 1.2, 2.1)) return "person";
-  if (within(extent.length, 1.3, 5.5) && extent.width < 2.3F && within(extent.top, 1.1, 2.2)) {
-    return "car";
-  }
-  if (extent.length > 2 && extent.top > 2.4F) return "truck";
-  return "object";
-}
-
 /// The box around what the picture shows of a cluster.
 struct Seen {
   Box2d box = Box2d::around_nothing();
@@ -88,6 +79,36 @@ Seen look_at(std::size_t i, const DetectorInput& input) {
 }
 
 }  // namespace
+
+const char* class_by_size(const ClusterExtent& extent) {
+  if (extent.length < 1.1F && within(extent.top, 1.2, 2.1)) return "person";
+  if (within(extent.length, 1.3, 5.5) && extent.width < 2.3F && within(extent.top, 1.1, 2.2)) {
+    return "car";
+  }
+  if (extent.length > 2 && extent.top > 2.4F) return "truck";
+  return "object";
+}
+
+std::vector<int> road_user_clusters(const LidarScan& scan, const SceneSegments& segments,
+                                    const ClusterDetectorOptions& options) {
+  const bool has_ground = segments.ground.status == GroundStatus::found;
+  const ViewEdge view_edge(scan, segments.horizontal_step_deg);
+  std::vector<int> found;
+  for (std::size_t i = 0; i < segments.clusters.size(); ++i) {
+    const auto& cluster = segments.clusters[i];
+    const ClusterExtent& extent = segments.extents[i];
+    const double ring_m = std::tan(segments.vertical_step_deg * kDegree) * extent.centroid.norm();
+    if (!has_size_of_road_user(extent, cluster.size(), has_ground, ring_m,
+                               view_edge.cuts_off(cluster), options))
+      continue;
+    // The ring below may just have missed it.
+    if (has_ground && extent.bottom > options.max_bottom + ring_m &&
+        !foot_is_hidden(scan, segments.ground, cluster))
+      continue;
+    found.push_back(static_cast<int>(i));
+  }
+  return found;
+}
 
 std::vector<Detection> ClusterDetector::detect(const DetectorInput& input) {
   if (input.key_scan == nullptr || input.segments == nullptr) return {};

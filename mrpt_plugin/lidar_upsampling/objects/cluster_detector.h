@@ -20,4 +20,14 @@ class ClusterDetector : public Detector {
   ClusterDetectorOptions options_;
 };
 
+/// @brief The clusters of a scan that may be road users, by their size and where they stand; seen
+/// by a camera or not.
+/// @return positions in `segments.clusters`.
+[[nodiscard]] std::vector<int> road_user_clusters(const LidarScan& scan,
+                                                  const SceneSegments& segments,
+                                                  const ClusterDetectorOptions& options);
+
+/// "car", "truck" or "person" by size, "object" where that says nothing.
+[[nodiscard]] const char* class_by_size(const ClusterExtent& extent);
+
 }  // namespace lidar_upsampling

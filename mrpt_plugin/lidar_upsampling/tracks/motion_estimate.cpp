@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the lidar_upsampling authors
+#include "lidar_upsampling/tracks/motion_estimate.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+namespace lidar_upsampling {
+namespace {
+
+constexpr int kMaxIterations = 20;
+constexpr double kSqNearest_m = 1e-2;  // depth squared: what is nearer says nothing
+
+Eigen::Matrix3d rotation_of(const Eigen::Vector3d& w) {
+  const double angle = w.norm();
+  if (angle < 1e-12) return Eigen::Matrix3d::Identity();
+  return Eigen::AngleAxisd(angle, w / angle).toRotationMatrix();
+}
+
+struct Residual {
+  Eigen::Vector2d px;
+  Eigen::Matrix<double, 2, 6> by_motion;
+};
+
+/// A motion with what every observation needs of it.
+struct Moved {
+  Eigen::Matrix3d R;
+  Eigen::Vector3d d;
+  Eigen::Vector3d centroid;
+};
+
+std::optional<Residual> residual_of(const Observation& observation, const ImageView& view,
+                                    const Moved& moved, bool with_derivative) {
+  const Eigen::Vector3d arm = moved.R * (observation.point_in_source - moved.centroid);
+  const Eigen::Vector3d at =
+      view.T_camera_lidar_k * (arm + moved.centroid + view.share * moved.d + view.offset);
+  if (at.z() * std::abs(at.z()) < kSqNearest_m) return std::nullopt;
+  const Eigen::Vector2d normalised = at.head<2>() / at.z();
+  Residual result;
+  result.px = observation.pixel_by_normalised * (normalised - observation.normalised);
+  if (!with_derivative) return result;
+  Eigen::Matrix<double, 2, 3> by_point;
+  by_point << 1, 0, -normalised.x(), 0, 1, -normalised.y();
+  by_point = observation.pixel_by_normalised * by_point * view.T_camera_lidar_k.linear() / at.z();
+  result.by_motion.leftCols<3>() = -by_point * skew(arm);
+  result.by_motion.rightCols<3>() = view.share * by_point;
+  return result;
+}
+
+/// The problem of one hypothesis.
+struct Problem {
+  const ImageFactor& image;
+  const Eigen::Vector3d& centroid;
+  const MotionExpected& prior;
+  Matrix6d information;  ///< of the prior
+  double sigma_px;
+  const PointNoise& noise;
+};
+
+double picture_cost(const Problem& problem, const Moved& moved) {
+  const double nu = problem.noise.degrees_of_freedom;
+  const double sq_scale = nu * problem.sigma_px * problem.sigma_px;
+  constexpr double kFarOff = 1e6;  // of a point that the picture cannot show
+  double sum = 0;
+  for (std::size_t i = 0; i < problem.image.observations.size(); ++i) {
+    const auto at = residual_of(problem.image.observations[i],
+                                problem.image.views[problem.image.view_of[i]], moved, false);
+    sum += std::log1p(at ? at->px.squaredNorm() / sq_scale : kFarOff);
+  }
+  return (nu + 2) * sum / problem.noise.points_per_observation;
+}
+
+double cost_of(const Problem& problem, const Twist& motion) {
+  const Twist astray = motion - problem.prior.mean;
+  return picture_cost(problem, {rotation_of(motion.head<3>()), motion.tail<3>(), problem.centroid}) +
+         astray.dot(problem.information * astray);
+}
+
+struct NormalEquations {
+  Matrix6d H;
+  Twist b;
+};
+
+NormalEquations linearised(const Problem& problem, const Twist& motion) {
+  const double nu = problem.noise.degrees_of_freedom;
+  const double sq_sigma = problem.sigma_px * problem.sigma_px;
+  const Moved moved{rotation_of(motion.head<3>()), motion.tail<3>(), problem.centroid};
+  NormalEquations result{problem.information, problem.information * (problem.prior.mean - motion)};
+  for (std::size_t i = 0; i < problem.image.observations.size(); ++i) {
+    const auto at = residual_of(problem.image.observations[i],
+                                problem.image.views[problem.image.view_of[i]], moved, true);
+    if (!at) continue;
+    const double weight = (nu + 2) / (nu * sq_sigma + at->px.squaredNorm()) /
+                          problem.noise.points_per_observation;
+    result.H.noalias() += weight * at->by_motion.transpose() * at->by_motion;
+    result.b.noalias() -= weight * at->by_motion.transpose() * at->px;
+  }
+  return result;
+}
+
+/// Gauss-Newton; a step that makes things worse is halved.
+Twist descend(const Problem& problem, Twist motion, double& cost) {
+  cost = cost_of(problem, motion);
+  for (int i = 0; i < kMaxIterations; ++i) {
+    const NormalEquations equations = linearised(problem, motion);
+    Twist step = equations.H.ldlt().solve(equations.b);
+    const double gain_hoped = step.dot(equations.b);
+    double better = cost_of(problem, motion + step);
+    for (int halved = 0; halved < 4 && !(better < cost); ++halved) {
+      step *= 0.5;
+      better = cost_of(problem, motion + step);
+    }
+    if (!(better < cost)) break;
+    motion += step;
+    cost = better;
+    if (gain_hoped < 1e-4) break;
+  }
+  return motion;
+}
+
+void count_inliers(const Problem& problem, MotionFit& fit) {
+  const Moved moved{rotation_of(fit.mean.head<3>()), fit.mean.tail<3>(), problem.centroid};
+  double sum = 0;
+  for (std::size_t i = 0; i < problem.image.observations.size(); ++i) {
+    const auto at = residual_of(problem.image.observations[i],
+                                problem.image.views[problem.image.view_of[i]], moved, false);
+    if (!at || at->px.norm() > 3 * problem.noise.sigma_px) continue;
+    ++fit.num_inliers;
+    sum += at->px.squaredNorm();
+  }
+  if (fit.num_inliers > 0) fit.rmse_px = std::sqrt(sum / fit.num_inliers);
+}
+
+}  // namespace
+
+void ImageFactor::add(const ImageView& view, const std::vector<Observation>& seen) {
+  view_of.insert(view_of.end(), seen.size(), static_cast<int>(views.size()));
+  views.push_back(view);
+  observations.insert(observations.end(), seen.begin(), seen.end());
+}
+
+MotionFit fit_motion(const ImageFactor& image, const Eigen::Vector3d& centroid,
+                     const MotionExpected& prior, const std::vector<Twist>& starts, double sigma_px,
+                     const PointNoise& noise) {
+  const Problem problem{image, centroid, prior, prior.covariance.inverse(), sigma_px, noise};
+  MotionFit fit;
+  fit.cost = std::numeric_limits<double>::infinity();
+  for (const Twist& start : starts) {
+    double cost = 0;
+    const Twist mode = descend(problem, start, cost);
+    if (cost >= fit.cost) continue;
+    fit.cost = cost;
+    fit.mean = mode;
+  }
+  const Matrix6d H = linearised(problem, fit.mean).H;
+  fit.covariance = H.inverse();
+  fit.log_evidence = -0.5 * (fit.cost + std::log(Matrix6d(H * prior.covariance).determinant()));
+  count_inliers(problem, fit);
+  return fit;
+}
+
+double measured_sigma_px(const ImageFactor& image, const Eigen::Vector3d& centroid,
+                         const Twist& motion, const PointNoise& noise) {
+  constexpr double kExpectedCounts = 4, kFinest_px = 0.1;
+  const Moved moved{rotation_of(motion.head<3>()), motion.tail<3>(), centroid};
+  const double nu = noise.degrees_of_freedom;
+  double sq_sigma = noise.sigma_px * noise.sigma_px;
+  for (int round = 0; round < 5; ++round) {
+    double sum = 0;
+    for (std::size_t i = 0; i < image.observations.size(); ++i) {
+      const auto at = residual_of(image.observations[i], image.views[image.view_of[i]], moved, false);
+      const double sq = at ? at->px.squaredNorm() : 1e6;
+      sum += 0.5 * (nu + 2) / (nu + sq / sq_sigma) * sq;
+    }
+    const auto count = static_cast<double>(image.observations.size());
+    sq_sigma = (kExpectedCounts * noise.sigma_px * noise.sigma_px + sum) / (kExpectedCounts + count);
+  }
+  return std::max(kFinest_px, std::sqrt(sq_sigma));
+}
+
+Pose motion_pose(const Twist& motion, const Eigen::Vector3d& centroid) {
+  Pose T = Pose::Identity();
+  T.linear() = rotation_of(motion.head<3>());
+  T.translation() = centroid + motion.tail<3>() - T.linear() * centroid;
+  return T;
+}
+
+}  // namespace lidar_upsampling

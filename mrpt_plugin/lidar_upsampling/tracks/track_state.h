@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the lidar_upsampling authors
+#pragma once
+
+#include "lidar_upsampling/se3.h"
+#include "lidar_upsampling/types.h"
+
+/// What is known of one object's motion over ground: the only place with a motion model.
+namespace lidar_upsampling {
+
+/// How road users change their motion, as white noise (Bar-Shalom et al., Estimation with
+/// Applications to Tracking and Navigation, 6.3.2), and what is expected of a new one.
+struct MotionNoise {
+  double unknown_speed_sigma = 15;  ///< m/s per axis, of an object seen for the first time
+  double unknown_yaw_rate_sigma = 0.3;  ///< rad/s, likewise
+  double acceleration = 4;              ///< m^2/s^3: after a second, 2 m/s
+  double yaw_acceleration = 0.1;        ///< rad^2/s^3
+};
+
+/// @brief A step over ground: x and y of the object's centroid (m), and its heading (rad).
+struct PlanarStep {
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+};
+
+/// @brief A Gaussian over (x, y, heading, vx, vy, yaw rate): the step since the scan that last
+/// showed the object, and the velocity, in the level axes of a frame at rest. m, rad, s.
+struct TrackState {
+  Stamp stamp;
+  Twist mean = Twist::Zero();
+  Matrix6d covariance = Matrix6d::Zero();
+
+  [[nodiscard]] PlanarStep step() const { return {mean.head<3>(), covariance.topLeftCorner<3, 3>()}; }
+  [[nodiscard]] Eigen::Vector2d velocity() const { return mean.segment<2>(3); }
+};
+
+/// Nothing is known of how it moves.
+[[nodiscard]] TrackState new_track_state(Stamp stamp, const MotionNoise& noise);
+
+/// @brief At constant turn rate and velocity, but for the noise; nothing changes backwards in time.
+[[nodiscard]] TrackState predicted(const TrackState& state, Stamp stamp, const MotionNoise& noise);
+
+/// @brief The state given what has been found of its step.
+/// @param before of the step, as it was expected: its covariance is that of the state and of
+/// whatever else weighs in between the state and what is seen (the ego-motion's error).
+/// @param after of the step, that knowledge included.
+[[nodiscard]] TrackState updated(const TrackState& state, const PlanarStep& before,
+                                 const PlanarStep& after);
+
+/// @brief The state given a measurement of its step (Kalman).
+[[nodiscard]] TrackState updated(const TrackState& state, const PlanarStep& measured);
+
+/// @brief The object has been seen anew: steps count from here.
+[[nodiscard]] TrackState from_here(TrackState state);
+
+/// @brief What a state was, given what it was found to become (Rauch, Tung, Striebel).
+/// @param later the same track's, predicted from `state` and corrected by what came after.
+[[nodiscard]] TrackState smoothed(const TrackState& state, const TrackState& later,
+                                  const MotionNoise& noise);
+
+}  // namespace lidar_upsampling
