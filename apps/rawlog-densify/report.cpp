@@ -144,7 +144,8 @@ nlohmann::json to_json(const DensifyReport& report) {
                       {"object_status", report.object_status},
                       {"warnings", report.warnings},
                       {"stages", nlohmann::json::array()},
-                      {"objects", nlohmann::json::array()}};
+                      {"objects", nlohmann::json::array()},
+                      {"objects_out_of_view", nlohmann::json::array()}};
   for (const std::string& stage : report.stage_order) {
     const std::vector<double>& times = report.stage_ms.at(stage);
     json["stages"].push_back({{"stage", stage},
@@ -153,7 +154,9 @@ nlohmann::json to_json(const DensifyReport& report) {
                               {"p95_ms", quantile(times, 0.95)},
                               {"total_ms", std::accumulate(times.begin(), times.end(), 0.)}});
   }
-  for (const DensifyReport::Row& row : report.rows) json["objects"].push_back(row_json(row));
+  for (const DensifyReport::Row& row : report.rows)
+    json[row.object.camera_label.empty() ? "objects_out_of_view" : "objects"].push_back(
+        row_json(row));
   return json;
 }
 

@@ -124,7 +124,7 @@ enum class MotionStatus {
 struct ObjectMotion {
   int track_id = -1;
   std::string class_name;
-  std::string camera_label;
+  std::string camera_label;  ///< that sees most of it; empty: none does
   MotionStatus status = MotionStatus::too_few_points;
   Pose T_lidar_t_lidar_k = Pose::Identity();  ///< ego- and object motion together (eq. 5, T_D)
   Pose T_mov = Pose::Identity();  ///< object motion alone, in the lidar frame at k (eq. 3)

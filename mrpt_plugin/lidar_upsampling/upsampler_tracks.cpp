@@ -84,14 +84,37 @@ std::optional<Twist> consensus(const std::vector<Observation>& seen,
   return motion;
 }
 
-Box2d box_of(const CameraModel& camera, const LidarScan& scan, const std::vector<int>& points,
-             const Pose& T_camera_t_lidar_k) {
-  Box2d box = Box2d::around_nothing();
+// An object on a picture.
+struct Appearance {
+  const Camera* camera = nullptr;  // null: on none
+  int num_points = 0;
+  Box2d box;
+};
+
+Appearance appearance_of(const Camera& camera, const LidarScan& scan, const std::vector<int>& points,
+                         const Pose& T_lidar_t_lidar_k) {
+  const Pose T = T_camera_lidar_of(camera, scan.T_vehicle_lidar) * T_lidar_t_lidar_k;
+  Appearance result{&camera, 0, Box2d::around_nothing()};
   for (const int i : points) {
-    const auto pixel = project(camera, T_camera_t_lidar_k * scan.points[i].cast<double>());
-    if (pixel) box.extend(pixel->x(), pixel->y());
+    const auto pixel = project(camera.model, T * scan.points[i].cast<double>());
+    if (!pixel) continue;
+    result.box.extend(pixel->x(), pixel->y());
+    ++result.num_points;
   }
-  return box.right < box.left ? Box2d{} : box;
+  return result;
+}
+
+// On the picture that shows most of it, if any shows enough.
+Appearance shown(const std::vector<ImageResult>& group, const LidarScan& scan,
+                 const ObjectMotion& motion, double min_share) {
+  Appearance best;
+  for (const ImageResult& result : group) {
+    const Appearance here =
+        appearance_of(result.camera, scan, motion.points, motion.T_lidar_t_lidar_k);
+    if (here.num_points > best.num_points) best = here;
+  }
+  const auto enough = min_share * static_cast<double>(motion.points.size());
+  return best.num_points > 0 && best.num_points >= enough ? best : Appearance{};
 }
 
 }  // namespace
@@ -248,14 +271,12 @@ std::vector<ObjectMotion> LidarUpsampler::tracked_motions(const std::vector<Imag
     const double dt = std::max(0.005, seconds_between(track.stamp, newest.instant));
     ImageFactor image;
     std::vector<Twist> starts{Twist::Zero()};
-    const ImageResult* best = nullptr;
     for (const ImageResult& result : group) {
       if (result.seen.size() <= i || result.seen[i].empty()) continue;
       ImageView view = result.views[i];
       view.share /= dt;
       image.add(view, result.seen[i]);
       starts.insert(starts.end(), result.starts[i].begin(), result.starts[i].end());
-      if (best == nullptr || best->seen[i].size() < result.seen[i].size()) best = &result;
     }
     const MotionAnswer answer = estimate_motion(track, image, question, starts, options);
     track.latest = answer.state;
@@ -297,11 +318,10 @@ std::vector<ObjectMotion> LidarUpsampler::tracked_motions(const std::vector<Imag
                   .covariance.bottomRightCorner<3, 3>() * R.transpose();
     if (!answer.moves && answer.is_seen)
       motion.unproven_step = R * answer.fit.mean.tail<3>();
-    const ImageResult& shown = best != nullptr ? *best : newest;
-    motion.camera_label = shown.camera.label;
-    motion.box = box_of(shown.camera.model, key_->scan, object.points,
-                        T_camera_lidar_of(shown.camera, key_->scan.T_vehicle_lidar) *
-                            motion.T_lidar_t_lidar_k);
+    const Appearance on_picture =
+        shown(group, key_->scan, motion, config_.detector.clusters.min_visible);
+    if (on_picture.camera != nullptr) motion.camera_label = on_picture.camera->label;
+    motion.box = on_picture.box;
   });
   return motions;
 }
