@@ -12,9 +12,20 @@ using Matrix6d = Eigen::Matrix<double, 6, 6>;
 
 [[nodiscard]] Eigen::Matrix3d skew(const Eigen::Vector3d& v);
 
+/// The exponential map of SO(3), of a rotation vector (rad), and its inverse.
+[[nodiscard]] Eigen::Matrix3d rotation_exp(const Eigen::Vector3d& w);
+[[nodiscard]] Eigen::Vector3d rotation_log(const Eigen::Matrix3d& rotation);
+
+/// @brief J(w) in exp(w + dw) = exp(J(w) dw) exp(w) to first order, w a rotation vector (Barfoot,
+/// State Estimation for Robotics, sec. 7.1).
+[[nodiscard]] Eigen::Matrix3d left_jacobian(const Eigen::Vector3d& w);
+
 /// The exponential map of SE(3) and its inverse (Barfoot, State Estimation for Robotics, 7.1.3).
 [[nodiscard]] Pose exp_se3(const Twist& twist);
 [[nodiscard]] Twist log_se3(const Pose& pose);
+
+/// @brief [exp(w) | t] * pose, of increment = (w, t): unlike exp_se3, t is not turned on the way.
+[[nodiscard]] Pose incremented(const Twist& increment, const Pose& pose);
 
 /// A proper rotation again, after many products.
 [[nodiscard]] Pose renormalized(const Pose& pose);

@@ -7,17 +7,17 @@
 #include <Eigen/Cholesky>
 #include <limits>
 
+#include "lidar_upsampling/se3.h"
 #include "lidar_upsampling/vision/observation.h"
-#include "lidar_upsampling/vision/pose_increment.h"
 #include "pose_problems.h"
 
 namespace lidar_upsampling {
 namespace {
 
 /// (w, t) in truth = [exp(w) | t] * estimate.
-Vector6d error_of(const Pose& truth, const Pose& estimate) {
+Twist error_of(const Pose& truth, const Pose& estimate) {
   const Pose increment = truth * estimate.inverse();
-  Vector6d error;
+  Twist error;
   error << rotation_log(increment.linear()), increment.translation();
   return error;
 }
@@ -46,7 +46,7 @@ TEST(PoseIncrement, the_reprojection_jacobian_agrees_with_differences) {
   const auto at = reprojection(observations[3], problem.truth);
   ASSERT_TRUE(at);
   for (int axis = 0; axis < 6; ++axis) {
-    const Vector6d step = 1e-6 * Vector6d::Unit(axis);
+    const Twist step = 1e-6 * Twist::Unit(axis);
     const auto plus = reprojection(observations[3], incremented(step, problem.truth));
     const auto minus = reprojection(observations[3], incremented(-step, problem.truth));
     EXPECT_LT(((plus->residual - minus->residual) / 2e-6 - at->jacobian.col(axis)).norm(), 1e-4);
@@ -57,7 +57,7 @@ TEST(RefinePose, a_start_some_pixels_off_ends_at_the_truth_despite_outliers) {
   ProblemOptions options;
   options.outliers = 0.2;
   const PoseProblem problem = make_pose_problem(options);
-  Vector6d offset;
+  Twist offset;
   offset << 0.002, -0.003, 0.004, 0.02, -0.01, 0.1;
   const auto pose = refine_absolute_pose(problem.correspondences, problem.model,
                                          incremented(offset, problem.truth));
@@ -90,7 +90,7 @@ TEST(RefinePose, the_covariance_is_that_of_repeated_estimates) {
       }
       const auto pose = refine_absolute_pose(problem.correspondences, problem.model, problem.truth);
       ASSERT_TRUE(pose);
-      const Vector6d error = error_of(problem.truth, pose->T_camera_source);
+      const Twist error = error_of(problem.truth, pose->T_camera_source);
       scatter += error * error.transpose() / kNumTrials;
       predicted += pose->covariance / kNumTrials;
       mean_sq_mahalanobis += error.dot(pose->covariance.ldlt().solve(error)) / kNumTrials;
@@ -109,7 +109,7 @@ TEST(RefinePose, a_strong_prior_holds_and_a_weak_one_does_not_matter) {
   options.noise_px = 0.3;
   const PoseProblem problem = make_pose_problem(options);
   PosePrior prior;
-  Vector6d offset;
+  Twist offset;
   offset << 0, 0, 0, 0, 0, 0.05;
   prior.T_mean = incremented(offset, problem.truth);
   prior.sqrt_information = 1e6 * Matrix6d::Identity();
@@ -137,7 +137,7 @@ TEST(RefinePose, a_prior_lends_what_few_points_lack) {
     const PoseProblem problem = make_pose_problem(options);
     std::mt19937 generator(100 + seed);
     std::normal_distribution<double> noise(0, 1);
-    Vector6d offset;
+    Twist offset;
     for (int i = 0; i < 6; ++i) offset[i] = (i < 3 ? 0.002 : 0.02) * noise(generator);
     PosePrior prior;
     prior.T_mean = incremented(offset, problem.truth);

@@ -4,8 +4,8 @@
 
 #include <Eigen/Cholesky>
 
+#include "lidar_upsampling/se3.h"
 #include "lidar_upsampling/vision/p3p.h"
-#include "lidar_upsampling/vision/pose_increment.h"
 
 namespace lidar_upsampling {
 namespace {
@@ -66,7 +66,7 @@ ModelScore MlesacPose::score_model(const Pose& T_camera_source) {
 void MlesacPose::refine_model(Pose& T_camera_source) const {
   for (int step = 0; step < kRefineSteps; ++step) {
     Matrix6d normal = Matrix6d::Zero();
-    Vector6d right = Vector6d::Zero();
+    Twist right = Twist::Zero();
     int count = 0;
     for (const auto& observation : observations_) {
       const auto at = reprojection(observation, T_camera_source);
@@ -76,7 +76,7 @@ void MlesacPose::refine_model(Pose& T_camera_source) const {
       ++count;
     }
     if (count < 4) return;
-    const Vector6d increment = normal.ldlt().solve(right);
+    const Twist increment = normal.ldlt().solve(right);
     if (!increment.allFinite()) return;
     T_camera_source = incremented(increment, T_camera_source);
   }

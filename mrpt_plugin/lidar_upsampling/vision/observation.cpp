@@ -4,8 +4,8 @@
 
 #include <limits>
 
+#include "lidar_upsampling/se3.h"
 #include "lidar_upsampling/vision/distortion.h"
-#include "lidar_upsampling/vision/pose_increment.h"
 #include "lidar_upsampling/vision/projection.h"
 
 namespace lidar_upsampling {
@@ -52,7 +52,7 @@ std::optional<Reprojection> reprojection(const Observation& observation,
   by_point = observation.pixel_by_normalised * by_point;
   Reprojection result;
   result.residual = observation.pixel_by_normalised * (normalised - observation.normalised);
-  result.jacobian.leftCols<3>() = -by_point * cross_matrix(point);
+  result.jacobian.leftCols<3>() = -by_point * skew(point);
   result.jacobian.rightCols<3>() = by_point;
   return result;
 }

@@ -9,7 +9,7 @@
 #include <Eigen/LU>
 #include <cmath>
 
-#include "lidar_upsampling/vision/pose_increment.h"
+#include "lidar_upsampling/se3.h"
 
 namespace lidar_upsampling {
 namespace {
@@ -42,13 +42,13 @@ RobustReprojection robustified(const ceres::LossFunction& loss, const Eigen::Vec
 
 /// [exp(w) | t] = pose * prior.T_mean^-1 as (w, t), and its derivative by a left increment of the
 /// pose.
-std::pair<Vector6d, Matrix6d> difference(const Pose& pose, const Pose& T_mean) {
+std::pair<Twist, Matrix6d> difference(const Pose& pose, const Pose& T_mean) {
   const Pose increment = pose * T_mean.inverse();
-  Vector6d value;
+  Twist value;
   value << rotation_log(increment.linear()), increment.translation();
   Matrix6d jacobian = Matrix6d::Identity();
   jacobian.topLeftCorner<3, 3>() = left_jacobian(value.head<3>()).inverse();
-  jacobian.bottomLeftCorner<3, 3>() = -cross_matrix(value.tail<3>());
+  jacobian.bottomLeftCorner<3, 3>() = -skew(value.tail<3>());
   return {value, jacobian};
 }
 
@@ -72,7 +72,7 @@ class ReprojectionCost {
   }
 
   bool operator()(const double* parameters, double* residuals, double* jacobian) const {
-    const Eigen::Map<const Vector6d> increment(parameters);
+    const Eigen::Map<const Twist> increment(parameters);
     const Pose pose = incremented(increment, T_initial_);
     Eigen::Map<Eigen::VectorXd> r(residuals, NumResiduals());
     Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, 6>> j(jacobian, jacobian ? NumResiduals() : 0,
@@ -103,11 +103,11 @@ class ReprojectionCost {
 
  private:
   /// The derivative of the left increment of the resulting pose by the parameters.
-  static Matrix6d left_increment_by(const Vector6d& increment) {
+  static Matrix6d left_increment_by(const Twist& increment) {
     const Eigen::Matrix3d jacobian = left_jacobian(increment.head<3>());
     Matrix6d result = Matrix6d::Identity();
     result.topLeftCorner<3, 3>() = jacobian;
-    result.bottomLeftCorner<3, 3>() = cross_matrix(increment.tail<3>()) * jacobian;
+    result.bottomLeftCorner<3, 3>() = skew(increment.tail<3>()) * jacobian;
     return result;
   }
 
@@ -156,7 +156,7 @@ Matrix6d covariance(const std::vector<const Observation*>& inliers, const Pose& 
   if (prior) information += prior->sqrt_information.transpose() * prior->sqrt_information;
   // What nothing determines gets a huge variance, not an infinite or negative one.
   const Eigen::SelfAdjointEigenSolver<Matrix6d> solver(information);
-  const Vector6d eigenvalues =
+  const Twist eigenvalues =
       solver.eigenvalues().cwiseMax(1e-12 * solver.eigenvalues()[5]).cwiseMax(1e-12);
   return solver.eigenvectors() * eigenvalues.cwiseInverse().asDiagonal() *
          solver.eigenvectors().transpose();
