@@ -4,8 +4,8 @@
 #include <stdexcept>
 #include <string>
 
-#include "lidar_upsampling/metrics/dense_assignment.h"
 #include "lidar_upsampling/metrics/emd.h"
+#include "lidar_upsampling/robust/assignment.h"
 
 namespace lidar_upsampling {
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "lidar_upsampling/objects/assignment.h"
+#include "lidar_upsampling/robust/assignment.h"
 
 namespace lidar_upsampling {
 namespace {

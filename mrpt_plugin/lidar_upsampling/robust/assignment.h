@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <limits>
 #include <vector>
 
 namespace lidar_upsampling {
@@ -18,9 +19,17 @@ struct DenseAssignment {
 };
 
 /// @brief The assignment of every row to a column of its own at least total cost, for thousands of
-/// each (objects/assignment.h serves few objects, and pairs that must not be): shortest augmenting
-/// paths after column and row reductions, as Jonker and Volgenant, Computing 38 (1987).
+/// each: shortest augmenting paths after column and row reductions, as Jonker and Volgenant,
+/// Computing 38 (1987).
 /// @throw std::invalid_argument not square, or a cost that is not finite.
 [[nodiscard]] DenseAssignment solve_dense_assignment(const CostMatrix& cost);
+
+/// @brief The assignment of rows to columns of least total cost, where a row left without a column
+/// costs `max_cost`.
+/// @param cost any shape, without NaN; pairs at or above `max_cost` are never made.
+/// @return the column of each row, -1 for none.
+/// @throw std::invalid_argument a NaN or -inf cost, or an infinite one with an infinite `max_cost`.
+[[nodiscard]] std::vector<int> solve_assignment(
+    const Eigen::MatrixXd& cost, double max_cost = std::numeric_limits<double>::infinity());
 
 }  // namespace lidar_upsampling

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the lidar_upsampling authors
-#include "lidar_upsampling/metrics/dense_assignment.h"
+#include "lidar_upsampling/robust/assignment.h"
 
 #include <algorithm>
 #include <limits>
@@ -179,6 +179,22 @@ DenseAssignment solve_dense_assignment(const CostMatrix& cost) {
                                 " columns; must be square and of finite costs");
   }
   return cost.size() == 0 ? DenseAssignment{} : Solver(cost).solve();
+}
+
+std::vector<int> solve_assignment(const Eigen::MatrixXd& cost, double max_cost) {
+  // Whom the square's other rows or columns go to changes no total; capped, a forbidden pair costs
+  // what leaving its row alone costs.
+  const Eigen::Index size = std::max(cost.rows(), cost.cols());
+  CostMatrix square = CostMatrix::Zero(size, size);
+  square.topLeftCorner(cost.rows(), cost.cols()) =
+      cost.unaryExpr([&](double value) { return value > max_cost ? max_cost : value; });
+  std::vector<int> column_of_row = solve_dense_assignment(square).column_of_row;
+  column_of_row.resize(static_cast<std::size_t>(cost.rows()));
+  for (Eigen::Index row = 0; row < cost.rows(); ++row) {
+    int& column = column_of_row[row];
+    if (column >= cost.cols() || cost(row, column) >= max_cost) column = kNone;
+  }
+  return column_of_row;
 }
 
 }  // namespace lidar_upsampling
