@@ -7,6 +7,7 @@
 
 #include "drive.h"
 #include "lidar_upsampling/registration/surface.h"
+#include "lidar_upsampling/registration/voxel_grid.h"
 #include "street.h"
 
 namespace lidar_upsampling {
@@ -68,12 +69,14 @@ TEST(ScanRegistration, the_number_of_threads_does_not_matter) {
   EXPECT_EQ(parallel->T_target_source.matrix(), alone->T_target_source.matrix());
 }
 
-TEST(Surface, voxels_hold_the_mean_of_their_points) {
-  const auto thin = voxel_downsampled({{0.1F, 0.1F, 0.1F}, {-0.1F, 0, 0}, {0.3F, 0.1F, 0.1F}}, 0.5);
-  ASSERT_EQ(thin.size(), 2U);
-  EXPECT_TRUE(thin[0].isApprox(Eigen::Vector3f(0.2F, 0.1F, 0.1F)));
-  EXPECT_TRUE(thin[1].isApprox(Eigen::Vector3f(-0.1F, 0, 0)));
-  EXPECT_THROW(static_cast<void>(voxel_downsampled({}, 0)), std::invalid_argument);
+TEST(VoxelGrid, cubes_hold_the_mean_of_their_points) {
+  const auto [means, of_point] =
+      group_by_voxel({{0.1F, 0.1F, 0.1F}, {-0.1F, 0, 0}, {0.3F, 0.1F, 0.1F}}, 0.5);
+  ASSERT_EQ(means.size(), 2U);
+  EXPECT_TRUE(means[0].isApprox(Eigen::Vector3f(0.2F, 0.1F, 0.1F)));
+  EXPECT_TRUE(means[1].isApprox(Eigen::Vector3f(-0.1F, 0, 0)));
+  EXPECT_EQ(of_point, (std::vector<int>{0, 1, 0}));
+  EXPECT_THROW(static_cast<void>(group_by_voxel({}, 0)), std::invalid_argument);
 }
 
 TEST(Surface, normals_stand_on_a_plane_and_are_none_on_a_line) {

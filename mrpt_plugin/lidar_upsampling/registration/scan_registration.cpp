@@ -12,6 +12,7 @@
 #include <cmath>
 
 #include "lidar_upsampling/registration/surface.h"
+#include "lidar_upsampling/registration/voxel_grid.h"
 
 namespace lidar_upsampling {
 
@@ -39,7 +40,7 @@ std::vector<Eigen::Vector3f> thinned(const std::vector<Eigen::Vector3f>& points,
     const double sq_range = point.squaredNorm();
     return sq_range > sq_min && sq_range < sq_max;
   });
-  return voxel_downsampled(kept, options.voxel_m);
+  return group_by_voxel(kept, options.voxel_m).means;
 }
 
 std::vector<Eigen::Vector3f> every_nth(std::vector<Eigen::Vector3f> points, int max_points) {

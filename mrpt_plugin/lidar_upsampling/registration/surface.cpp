@@ -7,55 +7,10 @@
 #include <atomic>
 #include <cmath>
 #include <cstdint>
-#include <stdexcept>
 
 namespace lidar_upsampling {
 
 namespace {
-
-/// 21 bits per axis: enough for 100 km of 0.1 m cubes.
-std::uint64_t voxel_key(const Eigen::Vector3f& point, float inverse_size) {
-  constexpr std::int64_t kOffset = 1 << 20;
-  constexpr std::int64_t kMask = (1 << 21) - 1;
-  std::uint64_t key = 1ULL << 63;  // never zero, which marks a free slot
-  for (int axis = 0; axis < 3; ++axis) {
-    const auto cell = static_cast<std::int64_t>(std::floor(point[axis] * inverse_size)) + kOffset;
-    key |= static_cast<std::uint64_t>(cell & kMask) << (21 * axis);
-  }
-  return key;
-}
-
-std::uint64_t mixed(std::uint64_t key) { return (key * 0x9e3779b97f4a7c15ULL) >> 20; }
-
-/// Open addressing; several times as fast as std::unordered_map on a scan.
-class VoxelSlots {
- public:
-  explicit VoxelSlots(std::size_t num_points) {
-    std::size_t size = 64;
-    while (size < 2 * num_points) {
-      size *= 2;
-    }
-    keys_.assign(size, 0);
-    values_.resize(size);
-  }
-
-  /// @return the value for the key, `fresh` if the key is new.
-  int find_or_insert(std::uint64_t key, int fresh) {
-    std::size_t slot = mixed(key) & (keys_.size() - 1);
-    while (keys_[slot] != 0 && keys_[slot] != key) {
-      slot = (slot + 1) & (keys_.size() - 1);
-    }
-    if (keys_[slot] == 0) {
-      keys_[slot] = key;
-      values_[slot] = fresh;
-    }
-    return values_[slot];
-  }
-
- private:
-  std::vector<std::uint64_t> keys_;
-  std::vector<int> values_;
-};
 
 constexpr int kMoreWhereDense = 4;
 
@@ -93,33 +48,6 @@ Eigen::Vector3f normal_at(const PointIndex& index, const Eigen::Vector3f& point,
 }
 
 }  // namespace
-
-std::vector<Eigen::Vector3f> voxel_downsampled(const std::vector<Eigen::Vector3f>& points,
-                                               double voxel_m) {
-  if (!(voxel_m > 0)) {
-    throw std::invalid_argument("voxel size must be positive, is " + std::to_string(voxel_m) +
-                                " m");
-  }
-  VoxelSlots slots(points.size());
-  std::vector<Eigen::Vector3f> sums;
-  std::vector<int> counts;
-  const auto inverse_size = static_cast<float>(1 / voxel_m);
-  for (const auto& point : points) {
-    const int cell =
-        slots.find_or_insert(voxel_key(point, inverse_size), static_cast<int>(sums.size()));
-    if (cell == static_cast<int>(sums.size())) {
-      sums.push_back(point);
-      counts.push_back(1);
-    } else {
-      sums[cell] += point;
-      ++counts[cell];
-    }
-  }
-  for (std::size_t i = 0; i < sums.size(); ++i) {
-    sums[i] /= static_cast<float>(counts[i]);
-  }
-  return sums;
-}
 
 std::vector<Eigen::Vector3f> evenly_thinned(const std::vector<Eigen::Vector3f>& points,
                                             std::size_t max_points) {

@@ -9,10 +9,6 @@
 
 namespace lidar_upsampling {
 
-/// @brief One point (the mean) per occupied cube of side `voxel_m`, in order of first occupation.
-[[nodiscard]] std::vector<Eigen::Vector3f> voxel_downsampled(
-    const std::vector<Eigen::Vector3f>& points, double voxel_m);
-
 /// @brief All of the points, or `max_points` of them at even steps of their order.
 [[nodiscard]] std::vector<Eigen::Vector3f> evenly_thinned(
     const std::vector<Eigen::Vector3f>& points, std::size_t max_points);
