@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "check.h"
+#include "lidar_upsampling/units.h"
 
 namespace lidar_upsampling {
 namespace {
@@ -24,9 +25,8 @@ std::string place_of(const Pose& T_vehicle_sensor) {
 
 // Where a sensor looks, from the vehicle's forward axis to the left and up.
 std::string direction_of(const Eigen::Vector3d& axis) {
-  constexpr double kDegrees = 180 / M_PI;
-  return "looking " + fixed(kDegrees * std::atan2(axis.y(), axis.x()), 1) + " deg to the left, " +
-         fixed(kDegrees * std::asin(axis.z()), 1) + " deg up";
+  return "looking " + fixed(std::atan2(axis.y(), axis.x()) / kDegree, 1) + " deg to the left, " +
+         fixed(std::asin(axis.z()) / kDegree, 1) + " deg up";
 }
 
 std::string lens_of(const CameraModel& m) {

@@ -7,12 +7,11 @@
 #include <numeric>
 
 #include "label_table.h"
+#include "lidar_upsampling/units.h"
 
 namespace lidar_upsampling {
 
 namespace {
-
-constexpr double kDegrees = 180 / 3.14159265358979323846;
 
 /// An object counts where ours is known, so that the rows compare the same objects.
 template <typename Visit>
@@ -29,7 +28,7 @@ ObjectFigures object_figures(const LogResult& result, bool moving, Row row) {
     if (object.object.moving != moving || !error) return;
     position.push_back(error->position_m);
     velocity.push_back(error->velocity_mps);
-    yaw.push_back(error->yaw_rad * kDegrees);
+    yaw.push_back(error->yaw_rad / kDegree);
     if (error->depth_share) depth.push_back(*error->depth_share * 100);
   });
   return {summarize(std::move(position)), summarize(std::move(depth)),

@@ -51,7 +51,7 @@ std::vector<ObjectReference> objects_by_clusters(const LidarScan& key) {
     object.id = std::to_string(i);
     object.class_name = "cluster";
     object.points = segments.clusters[i];
-    object.motion.centroid_k = centroid_of(points_at(key, object.points));
+    object.motion.centroid_k = mean_of(points_at(key, object.points));
     objects.push_back(std::move(object));
   }
   return objects;
@@ -69,7 +69,7 @@ std::vector<ObjectReference> objects_by_truth(const LidarScan& key, const Truth&
     object.class_name = box.class_name;
     object.points = points_in_box(key, ground, *T_box_lidar, box.size);
     if (object.points.empty()) continue;
-    object.motion.centroid_k = centroid_of(points_at(key, object.points));
+    object.motion.centroid_k = mean_of(points_at(key, object.points));
     if (static_cast<int>(object.points.size()) < min_points)
       object.excluded = to_string(RegistrationStatus::too_few_points);
     objects.push_back(std::move(object));

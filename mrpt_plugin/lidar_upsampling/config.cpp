@@ -12,17 +12,12 @@
 #include <stdexcept>
 
 #include "lidar_upsampling/settings.h"
+#include "lidar_upsampling/text.h"
 
 namespace lidar_upsampling {
 namespace {
 
 using mrpt::config::CConfigFileBase;
-
-std::string trimmed(const std::string& text) {
-  const auto first = text.find_first_not_of(" \t\r");
-  if (first == std::string::npos) return {};
-  return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
-}
 
 std::string joined(const std::vector<std::string>& words, const char* separator) {
   std::string text;
@@ -90,9 +85,8 @@ class Loader : public SettingVisitor {
     const auto text = read(key);
     if (!text) return;
     value.clear();
-    std::istringstream stream(*text);
-    for (std::string word; std::getline(stream, word, ',');)
-      if (!trimmed(word).empty()) value.push_back(trimmed(word));
+    for (const std::string& word : comma_separated(*text))
+      if (!word.empty()) value.push_back(word);
   }
 
   void choice(const char* key, int& value, const Choices& choices, const char*) override {

@@ -7,23 +7,11 @@
 #include <stdexcept>
 
 #include "lidar_upsampling/stamp_text.h"
+#include "lidar_upsampling/text.h"
 
 namespace lidar_upsampling {
 
 namespace {
-
-std::string trimmed(const std::string& text) {
-  const auto first = text.find_first_not_of(" \t\r");
-  if (first == std::string::npos) return {};
-  return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
-}
-
-std::vector<std::string> cells_of(const std::string& line) {
-  std::vector<std::string> cells;
-  std::istringstream stream(line);
-  for (std::string cell; std::getline(stream, cell, ',');) cells.push_back(trimmed(cell));
-  return cells;
-}
 
 template <typename Value>
 Value parsed(const std::string& text, const std::string& where) {
@@ -42,11 +30,11 @@ CsvTable::CsvTable(const std::string& path) : path_(path) {
   std::string line;
   if (!file || !std::getline(file, line))
     throw std::runtime_error(path + ": cannot be read, or is empty");
-  const auto names = cells_of(line);
+  const auto names = comma_separated(line);
   for (std::size_t i = 0; i < names.size(); ++i) columns_[names[i]] = i;
   for (std::size_t number = 2; std::getline(file, line); ++number) {
-    if (line.find_first_not_of(" \t\r") == std::string::npos) continue;
-    rows_.push_back(cells_of(line));
+    if (trimmed(line).empty()) continue;
+    rows_.push_back(comma_separated(line));
     lines_.push_back(number);
     if (rows_.back().size() != names.size())
       throw std::runtime_error(path + ", line " + std::to_string(number) + ": " +

@@ -47,6 +47,12 @@ double position_sigma(const ObjectMotion& object) {
   return std::sqrt(std::max(0., axes.eigenvalues()[2]));
 }
 
+Eigen::Vector3d mean_of(const std::vector<Eigen::Vector3f>& points) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (const auto& point : points) sum += point.cast<double>();
+  return sum / std::max<double>(1, static_cast<double>(points.size()));
+}
+
 std::vector<Eigen::Vector3f> points_at(const LidarScan& scan, const std::vector<int>& indices) {
   std::vector<Eigen::Vector3f> points;
   points.reserve(indices.size());

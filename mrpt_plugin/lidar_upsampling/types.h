@@ -184,6 +184,9 @@ struct VirtualScan {
 /// Its square root in the least certain direction, m; 0: not known.
 [[nodiscard]] double position_sigma(const ObjectMotion& object);
 
+/// @return zero of no points.
+[[nodiscard]] Eigen::Vector3d mean_of(const std::vector<Eigen::Vector3f>& points);
+
 [[nodiscard]] std::vector<Eigen::Vector3f> points_at(const LidarScan& scan,
                                                      const std::vector<int>& indices);
 

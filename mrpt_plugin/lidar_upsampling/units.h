@@ -4,6 +4,7 @@
 
 namespace lidar_upsampling {
 
-inline constexpr double kDegree = 3.14159265358979323846 / 180;  ///< radians
+inline constexpr double kPi = 3.14159265358979323846;
+inline constexpr double kDegree = kPi / 180;  ///< radians
 
 }  // namespace lidar_upsampling

@@ -5,11 +5,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lidar_upsampling/units.h"
+
 namespace lidar_upsampling::kitti {
 namespace {
 
 constexpr double kTurn = 2 * M_PI;
-constexpr double kFallBack = 10 * M_PI / 180;  // more than any jitter, less than any ring's extent
+constexpr double kFallBack = 10 * kDegree;  // more than any jitter, less than any ring's extent
 
 double azimuth_of(const Eigen::Vector3f& point) {
   const double azimuth = std::atan2(static_cast<double>(point.y()), static_cast<double>(point.x()));

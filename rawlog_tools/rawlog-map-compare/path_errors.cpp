@@ -11,11 +11,10 @@
 #include "known_scans.h"
 #include "lidar_upsampling/io/carriers.h"
 #include "lidar_upsampling/io/images.h"
+#include "lidar_upsampling/units.h"
 
 namespace lidar_upsampling::maps {
 namespace {
-
-constexpr double kDegrees = 180 / M_PI;
 
 double yaw_of(const Pose& T) { return std::atan2(T.linear()(1, 0), T.linear()(0, 0)); }
 
@@ -52,8 +51,8 @@ PathErrors errors_of_path(const std::string& path, const Trajectory& T_world_veh
     const Pose estimate = *T_world_map * T_map_vehicle;
     errors.last_m = (estimate.translation() - place).head<2>().norm();
     errors.last_yaw_deg =
-        kDegrees *
-        std::abs(std::remainder(yaw_of(estimate) - yaw_of(truth->T_world_vehicle), 2 * M_PI));
+        std::abs(std::remainder(yaw_of(estimate) - yaw_of(truth->T_world_vehicle), 2 * M_PI)) /
+        kDegree;
     errors.mean_m += errors.last_m;
     errors.length_m += (place - last_place).norm();
     last_place = place;

@@ -29,7 +29,7 @@ class Rows : public ::testing::Test {
       if (p.x() > 10 && p.x() < 17 && p.y() > 0 && p.y() < 4 && p.z() > -1.7)
         car_.points.push_back(static_cast<int>(i));
     }
-    car_.motion.centroid_k = centroid_of(points_at(key_, car_.points));
+    car_.motion.centroid_k = mean_of(points_at(key_, car_.points));
     car_.motion.T_lidar_t_lidar_k = Pose(Eigen::Translation3d(1, 0, 0));
   }
 

@@ -64,7 +64,7 @@ struct Scene {
     }
     return scan;
   }
-  [[nodiscard]] ReferenceMotion truth() const { return {centroid_of(points), T_object, 0.02}; }
+  [[nodiscard]] ReferenceMotion truth() const { return {mean_of(points), T_object, 0.02}; }
 };
 
 const testing::Box kOncomingK = box_at(18, 3, 3.14), kOncomingT = box_at(17, 3, 3.13);

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "lidar_upsampling/registration/point_index.h"
+#include "lidar_upsampling/units.h"
 #include "lidar_upsampling/vision/projection.h"
 
 namespace lidar_upsampling {
@@ -36,7 +37,7 @@ struct Beam {
 
 // In the order of rows and of azimuths therein; without rings, of narrow bands of elevation.
 std::vector<Beam> beams_of(const LidarScan& scan, const TimeOffsetOptions& options) {
-  constexpr double kBand = 0.3 * M_PI / 180;
+  constexpr double kBand = 0.3 * kDegree;
   std::vector<Beam> beams;
   beams.reserve(scan.size());
   for (std::size_t i = 0; i < scan.size(); ++i) {

@@ -49,14 +49,6 @@ double velocity_error(const ReferenceMotion& object, const Pose& T_lidar_t_lidar
   return position_error(object, T_lidar_t_lidar_k) / dt;
 }
 
-Eigen::Vector3d centroid_of(const std::vector<Eigen::Vector3f>& points) {
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  for (const auto& point : points) {
-    sum += point.cast<double>();
-  }
-  return sum / std::max<double>(1, static_cast<double>(points.size()));
-}
-
 std::optional<Pose> recover_motion(const LidarScan& key, const LidarScan& virtual_scan,
                                    const std::vector<int>& object, const std::vector<int>& matches,
                                    const Surface& surface, const std::vector<Pose>& guesses) {

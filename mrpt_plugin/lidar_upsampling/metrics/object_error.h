@@ -50,8 +50,6 @@ struct MovingOptions {
 [[nodiscard]] double velocity_error(const ReferenceMotion& object, const Pose& T_lidar_t_lidar_k,
                                     double dt);
 
-[[nodiscard]] Eigen::Vector3d centroid_of(const std::vector<Eigen::Vector3f>& points);
-
 /// @brief The motion that a virtual scan gave to an object of the key scan: from its own points
 /// where they can be told (`matches` of match_by_beam), else by registration to the virtual scan.
 /// @param object indices into the key scan.

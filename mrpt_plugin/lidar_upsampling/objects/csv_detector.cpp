@@ -5,24 +5,14 @@
 #include <cmath>
 #include <fstream>
 #include <limits>
-#include <sstream>
 #include <stdexcept>
+
+#include "lidar_upsampling/text.h"
 
 namespace lidar_upsampling {
 namespace {
 
-std::string trimmed(const std::string& text) {
-  const auto first = text.find_first_not_of(" \t\r\"");
-  if (first == std::string::npos) return "";
-  return text.substr(first, text.find_last_not_of(" \t\r\"") - first + 1);
-}
-
-std::vector<std::string> split(const std::string& line) {
-  std::vector<std::string> fields;
-  std::istringstream stream(line);
-  for (std::string field; std::getline(stream, field, ',');) fields.push_back(trimmed(field));
-  return fields;
-}
+constexpr const char* kBlanks = " \t\r\"";
 
 double parse_number(const std::string& text, const char* column) {
   std::size_t used = 0;
@@ -78,8 +68,8 @@ void CsvDetector::load(std::istream& rows, const std::string& name) {
   int number = 0;
   for (std::string line; std::getline(rows, line);) {
     ++number;
-    const std::vector<std::string> fields = split(line);
-    const bool blank = trimmed(line).empty() || fields[0].rfind('#', 0) == 0;
+    const std::vector<std::string> fields = comma_separated(line, kBlanks);
+    const bool blank = trimmed(line, kBlanks).empty() || fields[0].rfind('#', 0) == 0;
     const bool header = number == 1 && fields.size() > 1 && fields[1] == "stamp";
     if (blank || header) continue;
     try {

@@ -114,12 +114,6 @@ Extent extent_of(const std::vector<Eigen::Vector3f>& points, const Eigen::Vector
 
 }  // namespace
 
-Eigen::Vector3d mean_of(const std::vector<Eigen::Vector3f>& points) {
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  for (const auto& point : points) sum += point.cast<double>();
-  return sum / std::max<double>(1, static_cast<double>(points.size()));
-}
-
 KnownMotion known_from(const ObjectMotion& motion, Stamp stamp_k, double dt,
                        const Eigen::Matrix3d& R_rest_lidar_k) {
   KnownMotion known;

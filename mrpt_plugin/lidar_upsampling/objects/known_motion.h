@@ -31,9 +31,6 @@ struct KnownMotion {
                                  ///< again; in the axes of the frame at rest
 };
 
-/// @return zero of no points.
-[[nodiscard]] Eigen::Vector3d mean_of(const std::vector<Eigen::Vector3f>& points);
-
 /// @brief What an image has told, of the middle of its interval.
 /// @param dt seconds from the key scan, of `stamp_k`, to the image.
 [[nodiscard]] KnownMotion known_from(const ObjectMotion& motion, Stamp stamp_k, double dt,

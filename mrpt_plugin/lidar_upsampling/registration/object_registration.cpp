@@ -92,11 +92,7 @@ ObjectRegistration register_object(const Points& points_object, const Surface& t
     return result;
   }
   const Points points = evenly_thinned(points_object, static_cast<std::size_t>(options.max_points));
-  Eigen::Vector3d centroid = Eigen::Vector3d::Zero();
-  for (const auto& point : points) {
-    centroid += point.cast<double>() / static_cast<double>(points.size());
-  }
-  const ObjectFit problem{points, target, guesses.front(), options, centroid, clues};
+  const ObjectFit problem{points, target, guesses.front(), options, mean_of(points), clues};
   const Fitted best = best_fit(problem, guesses);
   result.T_target_object = best.T;
   result.score_m = best.score;

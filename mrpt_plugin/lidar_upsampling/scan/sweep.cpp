@@ -7,6 +7,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "lidar_upsampling/units.h"
+
 namespace lidar_upsampling {
 namespace {
 
@@ -21,7 +23,7 @@ void check(const SweepOptions& options, double period_s) {
 
 std::vector<float> times_by_azimuth(const LidarScan& scan, const SweepOptions& options,
                                     double period_s) {
-  const double start = options.start_deg * M_PI / 180;
+  const double start = options.start_deg * kDegree;
   const double sign = options.direction == TurnDirection::clockwise ? -1 : 1;
   std::vector<float> times(scan.size());
   for (std::size_t i = 0; i < times.size(); ++i) {

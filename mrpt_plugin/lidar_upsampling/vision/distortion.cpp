@@ -5,10 +5,12 @@
 #include <cmath>
 #include <limits>
 
+#include "lidar_upsampling/units.h"
+
 namespace lidar_upsampling {
 namespace {
 
-constexpr double kLargestAngle = 89 * 3.14159265358979323846 / 180;
+constexpr double kLargestAngle = 89 * kDegree;
 
 /// A value and its derivative.
 struct Dual {

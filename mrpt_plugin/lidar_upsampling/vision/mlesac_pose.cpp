@@ -5,12 +5,12 @@
 #include <Eigen/Cholesky>
 
 #include "lidar_upsampling/se3.h"
+#include "lidar_upsampling/units.h"
 #include "lidar_upsampling/vision/p3p.h"
 
 namespace lidar_upsampling {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr int kEmIterations = 5;
 constexpr int kRefineSteps = 2;
 

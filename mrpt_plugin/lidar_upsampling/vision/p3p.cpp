@@ -7,6 +7,8 @@
 #include <cmath>
 #include <optional>
 
+#include "lidar_upsampling/units.h"
+
 namespace lidar_upsampling {
 namespace {
 
@@ -56,7 +58,7 @@ std::vector<double> cubic_roots(double b, double c, double d) {
   } else {
     const double radius = std::sqrt(-p);
     const double angle = std::atan2(std::sqrt(-discriminant), -q) / 3;
-    constexpr double kThirdOfTurn = 2 * 3.14159265358979323846 / 3;
+    constexpr double kThirdOfTurn = 2 * kPi / 3;
     for (int i = 0; i < 3; ++i) {
       roots.push_back(2 * radius * std::cos(angle + i * kThirdOfTurn) - b / 3);
     }
