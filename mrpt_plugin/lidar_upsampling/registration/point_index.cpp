@@ -28,6 +28,21 @@ class NearestOne {
   PointIndex::Neighbor nearest_;
 };
 
+struct AllWithin {
+  using DistanceType = float;
+
+  float max_sq_distance;
+  std::vector<PointIndex::Neighbor>& neighbors;
+
+  [[nodiscard]] std::size_t size() const { return neighbors.size(); }
+  [[nodiscard]] bool full() const { return true; }
+  [[nodiscard]] float worstDist() const { return max_sq_distance; }
+  bool addPoint(float sq_distance, std::uint32_t index) const {
+    neighbors.push_back({static_cast<int>(index), sq_distance});
+    return true;
+  }
+};
+
 }  // namespace
 
 struct PointIndex::Tree {
@@ -79,6 +94,13 @@ void PointIndex::nearest(const Eigen::Vector3f& query, int k,
   for (std::size_t i = 0; i < found; ++i) {
     neighbors[i] = {static_cast<int>(indices[i]), sq_distances[i]};
   }
+}
+
+void PointIndex::within(const Eigen::Vector3f& query, float max_sq_distance,
+                        std::vector<Neighbor>& neighbors) const {
+  neighbors.clear();
+  AllWithin found{max_sq_distance, neighbors};
+  tree_->index.findNeighbors(found, query.data(), {});
 }
 
 }  // namespace lidar_upsampling
