@@ -207,6 +207,7 @@ class Documenter : public SettingVisitor {
 void leave_the_picture_alone(Config& config) {
   config.resample = "none";
   config.point_tracks.off_edges = false;
+  config.ego_motion.fuse = false;
   ObjectMotionOptions& options = config.object_motion;
   options.world_tracks = options.static_test = options.drop_covered = options.part_standing = false;
   options.prior.from_scans = options.prior.from_images = options.prior.ground = false;

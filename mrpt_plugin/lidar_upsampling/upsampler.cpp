@@ -187,13 +187,13 @@ void LidarUpsampler::start(CameraView& view, const std::shared_ptr<const Picture
     return;
   }
   const Stopwatch watch(timing_, "candidates");
-  const auto step = ego_motion_.step(key_->scan.stamp, anchor->instant);
+  const EgoStep ego = ego_step(anchor->instant);
   const auto expected = movers_of_later_scans(
       history_, key_->scan.stamp, key_->T_rest_lidar_k.linear(), config_.object_motion.prior);
   start_view(view, anchor,
              {key_->scan, *key_->segments, *key_->seen, key_->T_rest_lidar_k,
               key_->seen_before.get(), key_->stamp_before, next_.get(), expected},
-             ego_step(anchor->instant).T_to_from, known_motions_, !step, *detector_, config_);
+             ego.T_to_from, known_motions_, !ego.covariance.isZero(0), *detector_, config_);
   // Where neither the next picture nor the next scan tells, this is what there is.
   for (const Candidate& candidate : view.candidates)
     if (candidate.known) known_motions_[candidate.track_id] = *candidate.known;
@@ -218,7 +218,7 @@ void LidarUpsampler::process(CameraView& view, const Picture& picture, Effort ef
     const Stopwatch watch(timing_, "point tracking");
     follow_view(view, picture, key_->scan, result.ego.T_to_from, config_);
   }
-  if (looks && !ego_motion_.step(key_->scan.stamp, picture.instant)) {
+  if (looks && !result.ego.covariance.isZero(0)) {
     const Stopwatch watch(timing_, "ego-motion");
     result.ego = camera_step(view, picture, result.ego);
   }

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "lidar_upsampling/config.h"
+#include "lidar_upsampling/ego/ego_fusion.h"
 #include "lidar_upsampling/ego/ego_motion.h"
 #include "lidar_upsampling/objects/mover_history.h"
 #include "lidar_upsampling/se3.h"
@@ -88,7 +89,9 @@ class LidarUpsampler {
   [[nodiscard]] bool is_due(Stamp instant) const;
   void start(CameraView& view, const std::shared_ptr<const Picture>& anchor);
   void process(CameraView& view, const Picture& picture, Effort effort);
+  [[nodiscard]] std::optional<EgoStep> given_step(Stamp instant) const;
   [[nodiscard]] EgoStep ego_step(Stamp instant) const;
+  [[nodiscard]] EgoStep steady_step(Stamp instant) const;
   [[nodiscard]] CameraEgoOptions camera_ego_options(double dt) const;
   [[nodiscard]] EgoStep camera_step(const CameraView& view, const Picture& picture,
                                     const EgoStep& predicted);
@@ -122,6 +125,7 @@ class LidarUpsampler {
   MoverHistory history_;                      ///< of another run
   bool rate_is_measured_ = false;     ///< whether `lidar_rate_` is that between the last scans
   Twist lidar_rate_ = Twist::Zero();  ///< of the last ego-motion, per second
+  PoseNoise pose_noise_;              ///< of given poses, where they are not taken at their word
   std::vector<StageTime> timing_;     ///< since the last virtual scan
   std::vector<Stamp> expected_scans_;
   std::size_t expected_cameras_ = 0;

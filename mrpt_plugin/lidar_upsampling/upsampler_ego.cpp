@@ -22,12 +22,33 @@ Pose in_lidar(const Pose& T_to_from_vehicle, const Pose& T_vehicle_lidar) {
 
 }  // namespace
 
-EgoStep LidarUpsampler::ego_step(Stamp instant) const {
+// As the poses tell it, with what they are likely to be wrong by; exact where they are taken at
+// their word.
+std::optional<EgoStep> LidarUpsampler::given_step(Stamp instant) const {
   const LidarScan& scan = key_->scan;
-  if (const auto step = ego_motion_.step(scan.stamp, instant))
-    return {in_lidar(step->T_to_from, scan.T_vehicle_lidar), step->extrapolated};
-  const double dt = seconds_between(scan.stamp, instant);
-  return {exp_se3(Twist(lidar_rate_ * dt)), true};
+  auto step = ego_motion_.step(scan.stamp, instant);
+  if (!step) return step;
+  step->T_to_from = in_lidar(step->T_to_from, scan.T_vehicle_lidar);
+  if (!ego_motion_.fuses()) return step;
+  const double dt = std::max(1e-3, std::abs(seconds_between(scan.stamp, instant)));
+  const Twist usual = usual_noise(ego_motion_.source(), step->T_to_from.translation() / dt);
+  step->covariance = likely_noise(pose_noise_, usual).asDiagonal();
+  return step;
+}
+
+EgoStep LidarUpsampler::steady_step(Stamp instant) const {
+  const double dt = seconds_between(key_->scan.stamp, instant);
+  const CameraEgoOptions options = camera_ego_options(std::abs(dt));
+  Twist sigmas;
+  sigmas << options.tilt_sigma_rad, options.tilt_sigma_rad, options.yaw_sigma_rad,
+      options.forward_sigma_m, options.sideways_sigma_m, options.vertical_sigma_m;
+  return {exp_se3(Twist(lidar_rate_ * dt)), true, sigmas.cwiseAbs2().asDiagonal()};
+}
+
+EgoStep LidarUpsampler::ego_step(Stamp instant) const {
+  const auto given = given_step(instant);
+  if (!given) return steady_step(instant);
+  return rate_is_measured_ ? fused(*given, steady_step(instant)) : *given;
 }
 
 // How far a constant velocity may lead astray: far if it is only hoped for, little if it was
@@ -50,12 +71,17 @@ EgoStep LidarUpsampler::camera_step(const CameraView& view, const Picture& pictu
                                     const EgoStep& predicted) {
   const Pose T_camera_lidar = view.camera.T_vehicle_camera.inverse() * key_->scan.T_vehicle_lidar;
   const double dt = seconds_between(key_->scan.stamp, picture.instant);
+  CameraEgoOptions options = camera_ego_options(dt);
+  if (given_step(picture.instant)) {
+    options.guess_covariance = predicted.covariance;
+    options.trust_guess = true;
+  }
   const auto step =
       estimate_camera_ego(correspondences_of(view.points, kStaticOwner), view.camera.model,
-                          T_camera_lidar, camera_ego_options(dt), predicted.T_to_from);
+                          T_camera_lidar, options, predicted.T_to_from);
   if (!step) return predicted;
   if (!rate_is_measured_) lidar_rate_ = log_se3(step->T_lidar_t_lidar_k) / dt;
-  return {step->T_lidar_t_lidar_k, false};
+  return {step->T_lidar_t_lidar_k, false, step->covariance};
 }
 
 double LidarUpsampler::turn_s() const {
@@ -83,23 +109,28 @@ Pose LidarUpsampler::take_up(LidarScan& scan, const Pose* known_step) {
   if (known_step != nullptr) return *known_step;
   if (!key_) return Pose::Identity();
   const Pose T_scan_key = scan_step(scan);
-  if (times.empty() || !rate_is_measured_) return T_scan_key;
+  if (times.empty() || !rate_is_measured_ || given_step(scan.stamp)) return T_scan_key;
   scan.points = as_measured;  // once more, by the rate that it showed itself
   straighten(scan, times);
   return T_scan_key;
 }
 
 Pose LidarUpsampler::scan_step(const LidarScan& next) {
-  const EgoStep predicted = ego_step(next.stamp);
-  if (ego_motion_.step(key_->scan.stamp, next.stamp)) return predicted.T_to_from;
+  const auto given = given_step(next.stamp);
+  if (given && !ego_motion_.fuses()) return given->T_to_from;
+  const Pose guess = given ? given->T_to_from : ego_step(next.stamp).T_to_from;
   const Stopwatch watch(timing_, "scan registration");
-  const auto registration = register_scans(key_->scan.points, next.points, predicted.T_to_from,
-                                           config_.scan_registration);
+  const auto registration =
+      register_scans(key_->scan.points, next.points, guess, config_.scan_registration);
   rate_is_measured_ = registration.has_value();
-  if (!registration) return predicted.T_to_from;
-  lidar_rate_ =
-      log_se3(registration->T_target_source) / seconds_between(key_->scan.stamp, next.stamp);
-  return registration->T_target_source;
+  if (!registration) return guess;
+  EgoStep step = step_of(*registration);
+  if (given) {
+    note_step(pose_noise_, *given, step);
+    step = fused(*given_step(next.stamp), step);  // with what was learnt just now
+  }
+  lidar_rate_ = log_se3(step.T_to_from) / seconds_between(key_->scan.stamp, next.stamp);
+  return step.T_to_from;
 }
 
 }  // namespace lidar_upsampling

@@ -110,6 +110,7 @@ TEST(Config, the_papers_preset_moves_every_object_by_its_own_pose) {
   EXPECT_EQ(preset.resample, "none");
   EXPECT_FALSE(preset.point_tracks.off_edges);
   const ObjectMotionOptions& paper = preset.object_motion;
+  EXPECT_FALSE(preset.ego_motion.fuse);
   EXPECT_FALSE(paper.static_test || paper.drop_covered || paper.part_standing || paper.prior.any());
   const ObjectMotionOptions ours = loaded("").object_motion;
   EXPECT_TRUE(ours.static_test && ours.drop_covered && ours.part_standing &&

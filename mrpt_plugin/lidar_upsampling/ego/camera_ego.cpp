@@ -2,6 +2,7 @@
 // Copyright (c) 2026, the lidar_upsampling authors
 #include "lidar_upsampling/ego/camera_ego.h"
 
+#include <Eigen/Cholesky>
 #include <stdexcept>
 #include <string>
 
@@ -32,6 +33,16 @@ Matrix6d lidar_from_camera_increment(const Pose& T_camera_lidar) {
   return J;
 }
 
+/// W with W' W = covariance^-1.
+Matrix6d sqrt_information_of(const Matrix6d& covariance) {
+  constexpr double kTurn_rad = 1e-5, kStep_m = 1e-4;  // finer than any picture shows
+  Matrix6d regular = covariance;
+  regular.diagonal().head<3>().array() += kTurn_rad * kTurn_rad;
+  regular.diagonal().tail<3>().array() += kStep_m * kStep_m;
+  const Eigen::LLT<Matrix6d> root(regular);
+  return root.matrixL().solve(Matrix6d::Identity());
+}
+
 PosePrior vehicle_prior(const Pose& T_camera_lidar, const Pose& guess,
                         const CameraEgoOptions& options) {
   Twist sigmas;
@@ -39,8 +50,9 @@ PosePrior vehicle_prior(const Pose& T_camera_lidar, const Pose& guess,
       options.forward_sigma_m, options.sideways_sigma_m, options.vertical_sigma_m;
   PosePrior prior;
   prior.T_mean = T_camera_lidar * guess;
-  prior.sqrt_information =
-      sigmas.cwiseInverse().asDiagonal() * lidar_from_camera_increment(T_camera_lidar);
+  const Matrix6d weights = options.guess_covariance ? sqrt_information_of(*options.guess_covariance)
+                                                    : Matrix6d(sigmas.cwiseInverse().asDiagonal());
+  prior.sqrt_information = weights * lidar_from_camera_increment(T_camera_lidar);
   return prior;
 }
 

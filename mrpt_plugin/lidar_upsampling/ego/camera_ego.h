@@ -17,6 +17,8 @@ struct CameraEgoOptions {
   CameraEgoOptions() { pose.points_per_observation = 4; }
 
   AbsolutePoseOptions pose;
+  /// Of the guess, as CameraEgo::covariance has it, where it is known: in place of the sigmas.
+  std::optional<Matrix6d> guess_covariance;
   bool trust_guess = false;  ///< whether other consensus than near the guess is out of the question
   double forward_sigma_m = 0.3;
   double sideways_sigma_m = 0.05;

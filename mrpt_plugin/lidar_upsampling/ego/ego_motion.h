@@ -8,6 +8,7 @@
 
 #include "lidar_upsampling/ego/gnss_track.h"
 #include "lidar_upsampling/ego/trajectory.h"
+#include "lidar_upsampling/se3.h"
 
 namespace lidar_upsampling {
 
@@ -22,6 +23,7 @@ enum class EgoSource { automatic, poses, odometry, gnss, camera, none };
 
 struct EgoMotionOptions {
   EgoSource source = EgoSource::automatic;
+  bool fuse = true;  ///< with `automatic`, given poses are measurements among others
   double max_interpolation_gap_s = 1.0;  ///< samples further apart are not joined
   double max_extrapolation_s = 0.25;     ///< outside the samples, at the last velocity; 0: never
   double gnss_min_step_m = 0.3;          ///< heading comes from displacements longer than this
@@ -31,6 +33,8 @@ struct EgoMotionOptions {
 struct EgoStep {
   Pose T_to_from = Pose::Identity();  ///< vehicle frame at `from` to vehicle frame at `to`
   bool extrapolated = false;          ///< one of the instants lies outside the samples
+  /// Of a left increment (w, t), rad and m, in the frame at `to`; zero: taken for exact.
+  Matrix6d covariance = Matrix6d::Zero();
 };
 
 /// @brief The vehicle's trajectory, from any number of samples of any kind. Late samples are sorted
@@ -53,6 +57,12 @@ class EgoMotion {
   /// longer than `max_interpolation_gap_s`, or further outside than `max_extrapolation_s`; and
   /// always none for `EgoSource::camera`. The identity for `EgoSource::none`.
   [[nodiscard]] std::optional<EgoStep> step(Stamp from, Stamp to) const;
+
+  /// Whether given steps are to be joined with what scans and images tell, rather than taken at
+  /// their word.
+  [[nodiscard]] bool fuses() const {
+    return options_.source == EgoSource::automatic && options_.fuse;
+  }
 
   /// Drops samples that no step from `stamp` on needs.
   void forget_before(Stamp stamp);
