@@ -11,9 +11,10 @@ namespace {
 
 // As many steps as a vehicle takes to change its ways: two seconds of a 10 Hz scanner.
 constexpr std::size_t kWindow = 20;
-// Thinned to half a metre, points of one wall still share its roughness and its normals' errors:
-// as many count as one as on the picture (CameraEgoOptions).
-constexpr double kPointsPerObservation = 4;
+// Points of one wall share its roughness and its normals' errors. In simulated streets registration
+// is wrong by up to twice what independent points would say (in pitch): three times is on the safe
+// side, so that exact poses are not taken for noisy ones.
+constexpr double kPointsPerObservation = 9;
 // m, along the way: what a queue that moves along, and rings on what is level, pull registration
 // by. In simulated queues with exact poses it is 1.5 cm on average, 2.2 cm at most.
 constexpr double kDrag_m = 0.02;
@@ -93,7 +94,8 @@ Twist likely_noise(const PoseNoise& noise, const Twist& usual) {
   for (const int kind : {0, 3}) {
     const double together = likely_variance(noise, usual, kind, 3);
     for (int axis = kind; axis < kind + 3; ++axis)
-      variance[axis] = std::max(together, likely_variance(noise, usual, axis, 1));
+      variance[axis] =
+          together > 0 ? std::max(together, likely_variance(noise, usual, axis, 1)) : 0;
   }
   return variance;
 }
