@@ -90,14 +90,13 @@ Twist usual_noise(EgoSource source, const Eigen::Vector3d& velocity) {
 
 Twist likely_noise(const PoseNoise& noise, const Twist& usual) {
   if (noise.steps.empty()) return usual;
-  Twist variance;
-  for (const int kind : {0, 3}) {
-    const double together = likely_variance(noise, usual, kind, 3);
-    for (int axis = kind; axis < kind + 3; ++axis)
-      variance[axis] =
-          together > 0 ? std::max(together, likely_variance(noise, usual, axis, 1)) : 0;
-  }
-  return variance;
+  Twist alone, together;
+  for (int axis = 0; axis < 6; ++axis) alone[axis] = likely_variance(noise, usual, axis, 1);
+  for (const int kind : {0, 3})
+    together.segment<3>(kind).setConstant(likely_variance(noise, usual, kind, 3));
+  // Registration has a weak axis: the way ahead in a queue that moves along, pitch on few rings.
+  const bool are_exact = (alone.array() > 0).count() < 2 || together.isZero(0);
+  return are_exact ? Twist(Twist::Zero()) : Twist(together.cwiseMax(alone));
 }
 
 }  // namespace lidar_upsampling

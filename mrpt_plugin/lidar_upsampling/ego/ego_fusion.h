@@ -42,8 +42,8 @@ void note_step(PoseNoise& noise, const EgoStep& given, const EgoStep& registered
 
 /// @brief Variances per axis, rad^2 and m^2, of a step between two of the given poses, however far
 /// apart they lie: the most likely ones, truncated at zero. Zero are those of poses that are exact
-/// as far as scans can tell. No axis counts as better than the three of its kind together, as
-/// registration is worst where vehicles go; nor as wrong where these are exact.
+/// as far as scans can tell, which one axis alone does not gainsay. No axis counts as better than
+/// the three of its kind together, as registration is worst where vehicles go.
 /// @param usual counts as one step more.
 [[nodiscard]] Twist likely_noise(const PoseNoise& noise, const Twist& usual);
 
