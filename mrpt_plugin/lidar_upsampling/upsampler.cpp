@@ -57,6 +57,7 @@ std::optional<VirtualScan> LidarUpsampler::insert_scan(LidarScan scan) {
   const Pose T_scan_key = take_up(scan, is_next ? &next_->T_lidar_next_lidar_k : nullptr);
   if (key_) {
     key->T_rest_lidar_k = key_->T_rest_lidar_k * T_scan_key.inverse();
+    key->step_covariance = step_covariance_;
     scan_period_s_ = seconds_between(key_->scan.stamp, scan.stamp);
     key->seen_before = std::move(key_->seen);
     key->stamp_before = key_->scan.stamp;

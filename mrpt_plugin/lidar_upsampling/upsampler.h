@@ -124,6 +124,7 @@ class LidarUpsampler {
   std::map<int, Mover> movers_;               ///< of the key scan, by track id
   MoverHistory history_;                      ///< of another run
   bool rate_is_measured_ = false;     ///< whether `lidar_rate_` is that between the last scans
+  Matrix6d step_covariance_ = Matrix6d::Zero();  ///< of the ego-motion between the last two scans
   Twist lidar_rate_ = Twist::Zero();  ///< of the last ego-motion, per second
   PoseNoise pose_noise_;              ///< of given poses, where they are not taken at their word
   std::vector<StageTime> timing_;     ///< since the last virtual scan

@@ -117,6 +117,7 @@ Pose LidarUpsampler::take_up(LidarScan& scan, const Pose* known_step) {
 
 Pose LidarUpsampler::scan_step(const LidarScan& next) {
   const auto given = given_step(next.stamp);
+  step_covariance_.setZero();
   if (given && !ego_motion_.fuses()) return given->T_to_from;
   const Pose guess = given ? given->T_to_from : ego_step(next.stamp).T_to_from;
   const Stopwatch watch(timing_, "scan registration");
@@ -130,6 +131,7 @@ Pose LidarUpsampler::scan_step(const LidarScan& next) {
     step = fused(*given_step(next.stamp), step);  // with what was learnt just now
   }
   lidar_rate_ = log_se3(step.T_to_from) / seconds_between(key_->scan.stamp, next.stamp);
+  step_covariance_ = step.covariance;
   return step.T_to_from;
 }
 

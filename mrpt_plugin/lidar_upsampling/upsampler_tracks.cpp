@@ -185,7 +185,7 @@ void LidarUpsampler::start_tracked(CameraView& view, const std::shared_ptr<const
   view.points = {};
   view.sampling = anchored.sampling;
   choose_points(view, anchored, texture, scan, T_camera_lidar_a,
-                !ego_motion_.step(scan.stamp, anchor->instant), config_);
+                !ego_step(anchor->instant).covariance.isZero(0), config_);
   view.anchor = anchor;
 }
 
@@ -232,7 +232,7 @@ void LidarUpsampler::follow_tracked(CameraView& view, const Picture& picture, Im
             ways[i].T_mov[j] * key_->objects[i].centroid - key_->objects[i].centroid;
       }
   }
-  if (!ego_motion_.step(scan.stamp, picture.instant)) {
+  if (!result.ego.covariance.isZero(0)) {
     const Stopwatch watch(timing_, "ego-motion");
     result.ego = camera_step(view, picture, result.ego);
   }
@@ -265,6 +265,7 @@ std::vector<ObjectMotion> LidarUpsampler::tracked_motions(const std::vector<Imag
     MotionQuestion question;
     question.instant = newest.instant;
     question.T_lidar_t_lidar_k = newest.ego.T_to_from;
+    question.ego_covariance = newest.ego.covariance;
     question.centroid = object.centroid;
     question.R_rest_lidar_k = key_->T_rest_lidar_k.linear();
     question.focal_px = newest.camera.model.fx;

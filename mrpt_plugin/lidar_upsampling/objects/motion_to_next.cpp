@@ -15,7 +15,7 @@ constexpr double kRegistrationSigma_m = 0.02;
 constexpr double kSearch_m = 2;            // around rest, for objects of which nothing is known
 constexpr double kImprobable = 16;         // chi-square of two degrees of freedom
 constexpr double kWorstResidual_m = 0.15;  // of what may be the same surface
-constexpr double kMaxRise_m = 0.1;         // what a road user may rise or sink
+constexpr double kMostRise_m = 0.1;         // what a road user may rise or sink
 constexpr double kUnevenness_m = 0.04;     // of the ground, and twice what is told of heights
 constexpr double kSlope = 0.1;             // of what rings pass over, per height: a place ahead
 constexpr double kUnexplained_m = 0.05;    // by which an expectation may be off anyway
@@ -78,7 +78,7 @@ std::optional<MotionToNext> measure_to_next(const SoughtObject& object, const Ne
       sigma * sigma * Eigen::Matrix2d::Identity() + turn * found.slack * turn.transpose();
   const bool is_seen =
       found.status == RegistrationStatus::reliable || found.status == RegistrationStatus::ambiguous;
-  if (!is_seen || found.residual_m > kWorstResidual_m || rise > kMaxRise_m ||
+  if (!is_seen || found.residual_m > kWorstResidual_m || rise > kMostRise_m ||
       disagreement(motion.step, expected) > kImprobable)
     return {};
   if (is_lookalike(object, found, motion.step.mean, next)) return {};

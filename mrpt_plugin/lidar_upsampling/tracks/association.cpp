@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "lidar_upsampling/objects/assignment.h"
+#include "lidar_upsampling/robust/assignment.h"
 #include "lidar_upsampling/tracks/object_tracks.h"
 
 namespace lidar_upsampling {
