@@ -34,6 +34,7 @@ struct ImageResult {
   EgoStep ego;  ///< T_lidar_t_lidar_k
   std::vector<ObjectMotion> objects;
   std::vector<std::vector<Observation>> seen;  ///< followed points of each of the scan's objects
+  std::vector<int> num_followed;               ///< of each, found or not
   std::vector<ImageView> views;                ///< of each, `share` since the scan's own instant
   std::vector<std::vector<Twist>> starts;      ///< motions that led to the points
 };

@@ -208,7 +208,7 @@ void LidarUpsampler::process(CameraView& view, const Picture& picture, Effort ef
   if (!view.anchor) start(view, view.last);
 
   ImageResult result{
-      picture.image.stamp, picture.instant, picture.image.camera, ego_step(picture.instant), {}, {}, {}, {}};
+      picture.image.stamp, picture.instant, picture.image.camera, ego_step(picture.instant), {}, {}, {}, {}, {}};
   const bool looks = effort == Effort::full;
   if (config_.object_motion.world_tracks) {
     if (looks) follow_tracked(view, picture, result);

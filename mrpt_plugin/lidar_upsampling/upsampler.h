@@ -103,6 +103,8 @@ class LidarUpsampler {
   void learn(const std::vector<ObjectMotion>& objects, Stamp instant);
   // With tracks in the world (upsampler_tracks.cpp).
   void find_objects(const Picture* anchor, CameraView* view);
+  void look_ahead_tracked(const LidarScan& next, const SceneSegments& segments,
+                          const Pose& T_lidar_next_lidar_k);
   void start_tracked(CameraView& view, const std::shared_ptr<const Picture>& anchor);
   void follow_tracked(CameraView& view, const Picture& picture, ImageResult& result);
   [[nodiscard]] std::vector<ObjectMotion> tracked_motions(const std::vector<ImageResult>& group,

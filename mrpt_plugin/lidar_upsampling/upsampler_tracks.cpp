@@ -153,6 +153,16 @@ void LidarUpsampler::find_objects(const Picture* anchor, CameraView* view) {
   key_->objects_found = true;
 }
 
+void LidarUpsampler::look_ahead_tracked(const LidarScan& next, const SceneSegments& segments,
+                                        const Pose& T_lidar_next_lidar_k) {
+  find_objects(nullptr, nullptr);
+  if (!key_->objects_found) return;
+  const Pose T_rest_next = key_->T_rest_lidar_k * T_lidar_next_lidar_k.inverse();
+  look_ahead(store_, objects_of_clusters(next, segments, config_),
+             {next, T_rest_next, step_covariance_, next_->seen, key_->seen.get(), key_->scan.stamp},
+             config_.object_tracks);
+}
+
 void LidarUpsampler::start_tracked(CameraView& view, const std::shared_ptr<const Picture>& anchor) {
   find_objects(anchor.get(), &view);
   const Stopwatch watch(timing_, "points to follow");
@@ -238,6 +248,9 @@ void LidarUpsampler::follow_tracked(CameraView& view, const Picture& picture, Im
   }
   result.seen.resize(count);
   result.views.resize(count);
+  result.num_followed.assign(count, 0);
+  for (const int owner : view.points.owner)
+    if (owner >= 0) ++result.num_followed[owner];
   const double dt = seconds_between(scan.stamp, picture.instant);
   tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
     const Candidate& candidate = view.candidates[i];
@@ -272,14 +285,16 @@ std::vector<ObjectMotion> LidarUpsampler::tracked_motions(const std::vector<Imag
     const double dt = std::max(0.005, seconds_between(track.stamp, newest.instant));
     ImageFactor image;
     std::vector<Twist> starts{Twist::Zero()};
+    int num_followed = 0;
     for (const ImageResult& result : group) {
       if (result.seen.size() <= i || result.seen[i].empty()) continue;
+      num_followed += result.num_followed[i];
       ImageView view = result.views[i];
       view.share /= dt;
       image.add(view, result.seen[i]);
       starts.insert(starts.end(), result.starts[i].begin(), result.starts[i].end());
     }
-    const MotionAnswer answer = estimate_motion(track, image, question, starts, options);
+    const MotionAnswer answer = estimate_motion(track, image, num_followed, question, starts, options);
     track.latest = answer.state;
     track.latest_log_odds = std::clamp(answer.log_odds, -8., 8.);
 

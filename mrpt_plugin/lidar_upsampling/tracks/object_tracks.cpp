@@ -236,7 +236,7 @@ PlanarStep in_rest(const Twist& mean, const Matrix6d& covariance, const Eigen::M
   return {pick * mean, pick * covariance * pick.transpose()};
 }
 
-void hear(MotionAnswer& answer, const ImageFactor& image, 
+void hear(MotionAnswer& answer, const ImageFactor& image, int num_followed,
           const MotionQuestion& question, const MotionExpected& moving, const MotionExpected& parked,
           std::vector<Twist> starts, const TrackState& before, const TrackOptions& options) {
   starts.push_back(moving.mean);
@@ -251,7 +251,10 @@ void hear(MotionAnswer& answer, const ImageFactor& image,
                         options.points);
   starts = {fit.mean};
   fit_both(sigma_px);
-  if (std::max(fit.num_inliers, stays.num_inliers) < options.min_agreement * static_cast<double>(image.observations.size())) return;
+  const int agree = std::max(fit.num_inliers, stays.num_inliers);
+  if (agree < options.min_agreement * static_cast<double>(image.observations.size()) ||
+      agree < std::min<double>(options.min_inliers, 0.5 * num_followed))
+    return;
   answer.is_seen = true;
   answer.fit = fit;
   answer.parked = stays;
@@ -263,7 +266,7 @@ void hear(MotionAnswer& answer, const ImageFactor& image,
 }  // namespace
 
 MotionAnswer estimate_motion(const ObjectTrack& track, const ImageFactor& image,
-                             const MotionQuestion& question, const std::vector<Twist>& starts,
+                             int num_followed, const MotionQuestion& question, const std::vector<Twist>& starts,
                              const TrackOptions& options) {
   const double dt = seconds_between(track.stamp, question.instant);
   TrackState before = predicted(track.state, question.instant, options.noise);
@@ -279,7 +282,7 @@ MotionAnswer estimate_motion(const ObjectTrack& track, const ImageFactor& image,
   answer.state = before;
   answer.fit.mean = moving.mean;
   answer.fit.covariance = moving.covariance;
-  if (!image.observations.empty()) hear(answer, image, question, moving, parked, starts, before, options);
+  if (!image.observations.empty()) hear(answer, image, num_followed, question, moving, parked, starts, before, options);
   answer.moves = answer.log_odds > std::log(options.loss_ratio);
   return answer;
 }

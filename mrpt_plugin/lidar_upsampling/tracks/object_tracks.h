@@ -23,8 +23,9 @@ struct TrackOptions {
   double birth_density = 2e-4;  ///< new objects per m^2 of the scene, from scan to scan
   double extent_error = 0.1;    ///< share of its length by which what is seen of an object shifts
   double outlier_share = 0.05;  ///< of registrations that are wrong
+  int min_inliers = 6;          ///< or half of those followed, whatever is less, likewise
   double min_agreement = 0.3;   ///< share of found points that agree, or the picture is not heard
-  double outlier_density = 0.1; ///< per m^2, of where these lead
+  double outlier_density = 0.01; ///< per m^2, of where these lead
   double static_tolerance_px = 0.35;  ///< what ego-motion and calibration may be wrong on the picture
   double height_sigma_m = 0.02;     ///< vehicles stay on the ground...
   double tilt_sigma_deg = 0.3;     ///< ...and level, plus this times the time since the key scan...
@@ -115,8 +116,9 @@ struct MotionAnswer {
 
 /// @brief Both hypotheses, and which of them is to be told. Where few of the points that were
 /// found agree with either, the picture was asked at the wrong place and says nothing.
+/// @param num_followed points of the object, found again or not.
 [[nodiscard]] MotionAnswer estimate_motion(const ObjectTrack& track, const ImageFactor& image,
-                                           const MotionQuestion& question,
+                                           int num_followed, const MotionQuestion& question,
                                            const std::vector<Twist>& starts,
                                            const TrackOptions& options);
 
