@@ -161,8 +161,7 @@ DensifyReport densify(const DensifyJob& job, const std::function<void(double)>& 
   report.input = job.input;
   report.output = job.output;
   report.mode = job.config.mode;
-  report.hindsight = job.config.mode == "offline" && job.config.hindsight &&
-                     !job.config.object_motion.world_tracks;
+  report.hindsight = job.config.mode == "offline" && job.config.hindsight;
   report.detector = detector_name(job.config);
   Output output(job, report);
 

@@ -242,6 +242,15 @@ std::string Config::virtual_label(const std::string& real_label) const {
   return output_label.empty() ? real_label + "_VIRTUAL" : output_label;
 }
 
+TrackOptions Config::track_options() const {
+  TrackOptions options = object_tracks;
+  options.scan_factor = object_motion.prior.from_scans;
+  options.image_factor = object_motion.prior.from_images;
+  options.ground_factor = object_motion.prior.ground;
+  options.static_test = object_motion.static_test;
+  return options;
+}
+
 void check_sections(const CConfigFileBase& source) {
   mrpt::config::CConfigFileMemory defaults;
   Config().saveToConfigFile(defaults, kMainSection);

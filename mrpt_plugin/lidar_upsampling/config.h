@@ -69,6 +69,14 @@ struct Config : public mrpt::config::CLoadableOptions {
   ResampleOptions resampling;
   SweepOptions sweep;
 
+  /// Whether each object is one track in the world, and all cameras' pictures make one estimate of
+  /// its motion; off: each camera has tracks of its own, as in the paper and, so far, offline.
+  [[nodiscard]] bool tracks_in_world() const {
+    return object_motion.world_tracks && mode != "offline";
+  }
+  /// What tracks are told, the switches of [object_motion] included.
+  [[nodiscard]] TrackOptions track_options() const;
+
   /// @throw std::invalid_argument naming section, key and value: an unknown key in a section of
   /// ours, a value of the wrong type or outside its range.
   void loadFromConfigFile(const mrpt::config::CConfigFileBase& source,

@@ -225,23 +225,8 @@ void visit_motion(Config& c, SettingVisitor& v) {
            "what ego-motion and calibration may be wrong on the picture");
   v.number("points_per_observation", o.pose.points_per_observation, {1, 1000},
            "neighbouring points err alike: so many count as one");
-  v.flag("world_tracks", o.world_tracks, "each object one track in the world");
-  TrackOptions& t = c.object_tracks;
-  v.number("moving_prior", t.moving_prior, {0.001, 0.999}, "of a road user that nothing else is known of");
-  v.number("loss_ratio", t.loss_ratio, kPositive, "how much worse a parked object that jumps is than a mover left standing");
-  v.number("memory_s", t.memory_s, kPositive, "log-odds of moving decay by this");
-  v.number("birth_density_per_m2", t.birth_density, kPositive, "new objects, from scan to scan");
-  v.number("extent_error", t.extent_error, kPositive, "share of its length by which what is seen of an object shifts");
-  v.number("outlier_share", t.outlier_share, kPositive, "of registrations");
-  v.number("outlier_density_per_m2", t.outlier_density, kPositive, "of where they lead");
-  v.number("common_error_px", t.static_tolerance_px, kPositive, "what ego-motion and calibration may be wrong on the picture");
-  v.number("speed_sigma_m_s", t.noise.unknown_speed_sigma, kPositive, "of an object seen for the first time");
-  v.number("acceleration_density", t.noise.acceleration, kPositive, "m^2/s^3");
-  v.number("yaw_density", t.noise.yaw_acceleration, kPositive, "rad^2/s^3");
-  v.number("yaw_sigma", t.noise.unknown_yaw_rate_sigma, kPositive, "rad/s");
-  v.number("point_sigma_px", t.points.sigma_px, kPositive, "expected scatter");
-  v.number("point_dof", t.points.degrees_of_freedom, kPositive, "Student's t");
-  v.number("correlated_points", t.points.points_per_observation, kPositive, "so many count as one");
+  v.flag("world_tracks", o.world_tracks,
+         "each object one track in the world; else, and with mode = offline, one per camera");
   MotionPriorOptions& p = o.prior;
   v.flag("drop_covered", o.drop_covered,
          "points that a nearer moving object covers by now say nothing");
@@ -257,6 +242,44 @@ void visit_motion(Config& c, SettingVisitor& v) {
   v.number("yaw_rate_sigma_rad_s", p.yaw_rate_sigma, kPositive, "of an object known before");
   v.number("height_sigma_m", p.height_sigma_m, kPositive, "vehicles stay on the ground");
   v.number("tilt_sigma_deg", p.tilt_sigma_deg, kPositive, "vehicles stay level");
+}
+
+void visit_tracks(Config& c, SettingVisitor& v) {
+  TrackOptions& t = c.object_tracks;
+  constexpr Range kProbability{1e-6, 1 - 1e-6};
+  v.section("object_tracks", "Objects as tracks in the world, with world_tracks = true.");
+  v.number("moving_prior", t.moving_prior, kProbability,
+           "probability that a candidate moves of which nothing else is known");
+  v.number("loss_ratio", t.loss_ratio, kPositive,
+           "how much worse a parked object that jumps is than a mover left standing");
+  v.number("memory_s", t.memory_s, kPositive,
+           "log-odds of moving decay to the prior's within this");
+  v.number("unknown_speed_sigma_m_s", t.noise.unknown_speed_sigma, kPositive,
+           "per axis, of an object seen for the first time");
+  v.number("unknown_yaw_rate_sigma_rad_s", t.noise.unknown_yaw_rate_sigma, kPositive, "likewise");
+  v.number("acceleration_m2_s3", t.noise.acceleration, kPositive,
+           "white noise by which velocities change: variance per second");
+  v.number("yaw_acceleration_rad2_s3", t.noise.yaw_acceleration, kPositive, "likewise");
+  v.number("birth_density_per_m2", t.birth_density, kPositive, "new objects from scan to scan");
+  v.number("extent_error", t.extent_error, kPositive,
+           "share of its length by which what is seen of an object shifts");
+  v.number("outlier_share", t.outlier_share, kProbability, "of registrations that are wrong");
+  v.number("outlier_density_per_m2", t.outlier_density, kPositive, "of where these lead");
+  v.number("common_error_px", t.common_error_px, kPositive,
+           "what ego-motion and calibration may be wrong on the picture");
+  v.number("sigma_px", t.points.sigma_px, kPositive,
+           "expected scatter of a followed point, per axis");
+  v.number("degrees_of_freedom", t.points.degrees_of_freedom, kPositive,
+           "of Student's t: the fewer, the more points go astray");
+  v.number("points_per_observation", t.points.points_per_observation, {1, 1000},
+           "neighbouring points err alike: so many count as one");
+  v.integer("min_inliers", t.min_inliers, {1, 1e6},
+            "followed points that agree; with fewer the picture is not heard");
+  v.number("min_agreement", t.min_agreement, kShare, "share of those found, likewise");
+  v.number("height_sigma_m", t.height_sigma_m, kPositive, "vehicles stay on the ground");
+  v.number("tilt_sigma_deg", t.tilt_sigma_deg, kPositive, "vehicles stay level");
+  v.number("height_rate_sigma_m_s", t.height_rate_sigma, kPositive, "added per second");
+  v.number("tilt_rate_sigma_deg_s", t.tilt_rate_sigma_deg, kPositive, "likewise");
 }
 
 void visit_resampling(Config& c, SettingVisitor& v) {
@@ -285,6 +308,7 @@ void visit_settings(Config& config, SettingVisitor& visitor) {
   visit_scene(config, visitor);
   visit_vision(config, visitor);
   visit_motion(config, visitor);
+  visit_tracks(config, visitor);
   visit_resampling(config, visitor);
 }
 

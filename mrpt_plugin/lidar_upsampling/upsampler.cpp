@@ -40,7 +40,10 @@ std::shared_ptr<const Picture> make_picture(const CameraImage& image, Stamp inst
 }  // namespace
 
 LidarUpsampler::LidarUpsampler(const Config& config)
-    : config_(config), ego_motion_(config.ego_motion), detector_(make_detector(config.detector)) {}
+    : config_(config),
+      ego_motion_(config.ego_motion),
+      detector_(make_detector(config.detector)),
+      track_options_(config.track_options()) {}
 
 LidarUpsampler::~LidarUpsampler() = default;
 
@@ -51,7 +54,7 @@ void LidarUpsampler::expect_cameras(const std::vector<std::string>& labels) {
 std::optional<VirtualScan> LidarUpsampler::insert_scan(LidarScan scan) {
   auto waiting = flush();
   if (key_ && scan.stamp <= key_->scan.stamp) return waiting;  // out of order: of no use any more
-  if (key_ && config_.object_motion.world_tracks) find_objects(nullptr, nullptr);
+  if (key_ && config_.tracks_in_world()) find_objects(nullptr, nullptr);
   auto key = std::make_unique<KeyScan>();
   const bool is_next = next_ && next_->stamp == scan.stamp;
   const Pose T_scan_key = take_up(scan, is_next ? &next_->T_lidar_next_lidar_k : nullptr);
@@ -123,7 +126,7 @@ std::optional<VirtualScan> LidarUpsampler::flush() {
     for (const ObjectMotion& object : result.objects)
       motion.objects.push_back(brought_to(newest, result, object, key_->scan.stamp));
   }
-  if (config_.object_motion.world_tracks) {
+  if (config_.tracks_in_world()) {
     const Stopwatch watch(timing_, "object motion");
     motion.objects = tracked_motions(group, newest);
   } else {
@@ -183,7 +186,7 @@ void LidarUpsampler::start(CameraView& view, const std::shared_ptr<const Picture
     const Stopwatch watch(timing_, "ground and clusters");
     key_->segments = segment_scan(key_->scan, config_.segments);
   }
-  if (config_.object_motion.world_tracks) {
+  if (config_.tracks_in_world()) {
     start_tracked(view, anchor);
     return;
   }
@@ -207,10 +210,13 @@ void LidarUpsampler::process(CameraView& view, const Picture& picture, Effort ef
   if (!view.anchor && !anchor_is_near) return;
   if (!view.anchor) start(view, view.last);
 
-  ImageResult result{
-      picture.image.stamp, picture.instant, picture.image.camera, ego_step(picture.instant), {}, {}, {}, {}, {}};
+  ImageResult result;
+  result.stamp = picture.image.stamp;
+  result.instant = picture.instant;
+  result.camera = picture.image.camera;
+  result.ego = ego_step(picture.instant);
   const bool looks = effort == Effort::full;
-  if (config_.object_motion.world_tracks) {
+  if (config_.tracks_in_world()) {
     if (looks) follow_tracked(view, picture, result);
     group_.push_back(std::move(result));
     return;

@@ -102,10 +102,10 @@ class LidarUpsampler {
   [[nodiscard]] Pose scan_step(const LidarScan& next);
   void learn(const std::vector<ObjectMotion>& objects, Stamp instant);
   // With tracks in the world (upsampler_tracks.cpp).
-  void find_objects(const Picture* anchor, CameraView* view);
-  void look_ahead_tracked(const LidarScan& next, const SceneSegments& segments,
-                          const Pose& T_lidar_next_lidar_k);
+  void find_objects(const Picture* anchor, const CameraView* view);
   void start_tracked(CameraView& view, const std::shared_ptr<const Picture>& anchor);
+  void follow_objects(CameraView& view, const Picture& picture, ImageResult& result) const;
+  void note_sights(const CameraView& view, const Picture& picture, ImageResult& result) const;
   void follow_tracked(CameraView& view, const Picture& picture, ImageResult& result);
   [[nodiscard]] std::vector<ObjectMotion> tracked_motions(const std::vector<ImageResult>& group,
                                                           const ImageResult& newest);
@@ -121,15 +121,16 @@ class LidarUpsampler {
   std::map<std::string, std::unique_ptr<CameraView>> views_;
   std::vector<ImageResult> group_;            ///< of the instant under way
   std::map<int, KnownMotion> known_motions_;  ///< by track id
+  TrackOptions track_options_;
   TrackStore store_;
-  std::optional<MoverHistory> found_;         ///< where it is kept
-  std::map<int, Mover> movers_;               ///< of the key scan, by track id
-  MoverHistory history_;                      ///< of another run
-  bool rate_is_measured_ = false;     ///< whether `lidar_rate_` is that between the last scans
+  std::optional<MoverHistory> found_;  ///< where it is kept
+  std::map<int, Mover> movers_;        ///< of the key scan, by track id
+  MoverHistory history_;               ///< of another run
+  bool rate_is_measured_ = false;      ///< whether `lidar_rate_` is that between the last scans
   Matrix6d step_covariance_ = Matrix6d::Zero();  ///< of the ego-motion between the last two scans
-  Twist lidar_rate_ = Twist::Zero();  ///< of the last ego-motion, per second
-  PoseNoise pose_noise_;              ///< of given poses, where they are not taken at their word
-  std::vector<StageTime> timing_;     ///< since the last virtual scan
+  Twist lidar_rate_ = Twist::Zero();             ///< of the last ego-motion, per second
+  PoseNoise pose_noise_;           ///< of given poses, where they are not taken at their word
+  std::vector<StageTime> timing_;  ///< since the last virtual scan
   std::vector<Stamp> expected_scans_;
   std::size_t expected_cameras_ = 0;
   double scan_period_s_ = 0;

@@ -28,7 +28,6 @@ void LidarUpsampler::expect_next(const LidarScan& next) {
       NextScan{next.stamp, Surface(without_ground(straight, segments.ground)), T_lidar_next_lidar_k,
                SeenSpace(straight.points, segments.vertical_step_deg), key_->seen.get(),
                segments.vertical_step_deg});
-  if (config_.object_motion.world_tracks) look_ahead_tracked(straight, segments, T_lidar_next_lidar_k);
   next_view_ = std::make_unique<NextView>(
       NextView{std::move(straight), T_lidar_next_lidar_k, std::move(segments), nullptr});
   if (key_->resampler)

@@ -26,7 +26,7 @@ struct ObjectMotionOptions {
   bool part_standing = true;  ///< what stands beside a mover is no part of it; off: the paper
   /// Whether an object that cannot be told from a parked one stays parked; off: the paper.
   bool static_test = true;
-  bool world_tracks = true;  ///< each object one track in the world; off: one per camera
+  bool world_tracks = true;           ///< each object one track in the world; off: the paper
   double static_significance = 16.8;  ///< chi-square of 6 degrees of freedom, 1 % by default
   double static_tolerance_px =
       0.35;  ///< what ego-motion and calibration may be wrong on the picture

@@ -89,15 +89,4 @@ TrackState from_here(TrackState state) {
   return state;
 }
 
-TrackState smoothed(const TrackState& state, const TrackState& later, const MotionNoise& noise) {
-  const double dt = seconds_between(state.stamp, later.stamp);
-  if (dt <= 0) return later;
-  const Transition to = transition(state.mean, dt);
-  const Matrix6d expected =
-      to.by_state * state.covariance * to.by_state.transpose() + process_noise(dt, noise);
-  const Matrix6d C = expected.ldlt().solve(to.by_state * state.covariance).transpose();
-  return {state.stamp, state.mean + C * (later.mean - to.mean),
-          state.covariance + C * (later.covariance - expected) * C.transpose()};
-}
-
 }  // namespace lidar_upsampling

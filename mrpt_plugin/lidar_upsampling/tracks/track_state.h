@@ -11,7 +11,7 @@ namespace lidar_upsampling {
 /// How road users change their motion, as white noise (Bar-Shalom et al., Estimation with
 /// Applications to Tracking and Navigation, 6.3.2), and what is expected of a new one.
 struct MotionNoise {
-  double unknown_speed_sigma = 15;  ///< m/s per axis, of an object seen for the first time
+  double unknown_speed_sigma = 15;      ///< m/s per axis, of an object seen for the first time
   double unknown_yaw_rate_sigma = 0.3;  ///< rad/s, likewise
   double acceleration = 4;              ///< m^2/s^3: after a second, 2 m/s
   double yaw_acceleration = 0.1;        ///< rad^2/s^3
@@ -30,7 +30,9 @@ struct TrackState {
   Twist mean = Twist::Zero();
   Matrix6d covariance = Matrix6d::Zero();
 
-  [[nodiscard]] PlanarStep step() const { return {mean.head<3>(), covariance.topLeftCorner<3, 3>()}; }
+  [[nodiscard]] PlanarStep step() const {
+    return {mean.head<3>(), covariance.topLeftCorner<3, 3>()};
+  }
   [[nodiscard]] Eigen::Vector2d velocity() const { return mean.segment<2>(3); }
 };
 
@@ -52,10 +54,5 @@ struct TrackState {
 
 /// @brief The object has been seen anew: steps count from here.
 [[nodiscard]] TrackState from_here(TrackState state);
-
-/// @brief What a state was, given what it was found to become (Rauch, Tung, Striebel).
-/// @param later the same track's, predicted from `state` and corrected by what came after.
-[[nodiscard]] TrackState smoothed(const TrackState& state, const TrackState& later,
-                                  const MotionNoise& noise);
 
 }  // namespace lidar_upsampling

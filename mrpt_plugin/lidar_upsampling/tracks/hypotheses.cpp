@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the lidar_upsampling authors
+#include "lidar_upsampling/tracks/hypotheses.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "lidar_upsampling/units.h"
+
+namespace lidar_upsampling {
+namespace {
+
+/// Errors of the ego-motion and of the calibration, as a motion of the object; lidar frame at k.
+Matrix6d common_error(const MotionQuestion& question, const TrackOptions& options) {
+  const Eigen::Matrix3d R = question.T_lidar_t_lidar_k.linear().transpose();
+  Matrix6d by_twist = Matrix6d::Zero();
+  by_twist.topLeftCorner<3, 3>() = R;
+  by_twist.bottomLeftCorner<3, 3>() = -R * skew(question.T_lidar_t_lidar_k * question.centroid);
+  by_twist.bottomRightCorner<3, 3>() = R;
+  Matrix6d error = by_twist * question.ego_covariance * by_twist.transpose();
+  const double sideways = options.common_error_px / question.focal_px * question.centroid.norm();
+  constexpr double kLeastTurn = 2e-4;  // rad: a hundredth of a degree, so that it can be inverted
+  error.diagonal().head<3>().array() += kLeastTurn * kLeastTurn;
+  error.diagonal().tail<3>().array() += sideways * sideways;
+  return error;
+}
+
+PlanarStep in_rest(const Twist& mean, const Matrix6d& covariance,
+                   const Eigen::Matrix3d& R_rest_lidar_k) {
+  Eigen::Matrix<double, 3, 6> pick = Eigen::Matrix<double, 3, 6>::Zero();
+  pick.block<2, 2>(0, 3) = level_axes(R_rest_lidar_k);
+  pick(2, 2) = 1;
+  return {pick * mean, pick * covariance * pick.transpose()};
+}
+
+/// What either hypothesis expects.
+struct Expected {
+  MotionExpected moving, parked;
+};
+
+struct Fits {
+  MotionFit moving, parked;
+};
+
+Fits fit_both(const ImageFactor& image, const MotionQuestion& question, const Expected& expected,
+              const std::vector<Twist>& starts, double sigma_px, const PointNoise& noise) {
+  return {fit_motion(image, question.centroid, expected.moving, starts, sigma_px, noise),
+          fit_motion(image, question.centroid, expected.parked, {Twist::Zero()}, sigma_px, noise)};
+}
+
+bool is_heard(const Fits& fits, std::size_t num_found, int num_followed,
+              const TrackOptions& options) {
+  const int agree = std::max(fits.moving.num_inliers, fits.parked.num_inliers);
+  // Of few points, half are enough.
+  return agree >= options.min_agreement * static_cast<double>(num_found) &&
+         agree >= std::min<double>(options.min_inliers, 0.5 * num_followed);
+}
+
+void hear(MotionAnswer& answer, const ImageFactor& image, const MotionQuestion& question,
+          const Expected& expected, std::vector<Twist> starts, const TrackOptions& options) {
+  starts.push_back(expected.moving.mean);
+  const Fits first =
+      fit_both(image, question, expected, starts, options.points.sigma_px, options.points);
+  const MotionFit& likelier = first.moving.cost < first.parked.cost ? first.moving : first.parked;
+  const double sigma_px =
+      measured_sigma_px(image, question.centroid, likelier.mean, options.points);
+  const Fits fits =
+      fit_both(image, question, expected, {first.moving.mean}, sigma_px, options.points);
+  if (!is_heard(fits, image.observations.size(), question.num_followed, options)) return;
+  answer.is_seen = true;
+  answer.moving = fits.moving;
+  answer.parked = fits.parked;
+  answer.log_odds += fits.moving.log_evidence - fits.parked.log_evidence;
+  const Eigen::Matrix3d& R = question.R_rest_lidar_k;
+  answer.state = updated(answer.state, in_rest(expected.moving.mean, expected.moving.covariance, R),
+                         in_rest(fits.moving.mean, fits.moving.covariance, R));
+}
+
+}  // namespace
+
+MotionExpected expected_motion(const TrackState& at_instant, const Eigen::Matrix3d& R_rest_lidar_k,
+                               double dt, const TrackOptions& options) {
+  constexpr double kAnyTilt = 0.5, kAnyRise_m = 5;  // rad, m: no opinion
+  const Eigen::Matrix2d R = level_axes(R_rest_lidar_k).transpose();
+  const PlanarStep step = at_instant.step();
+  MotionExpected expected;
+  expected.mean[2] = step.mean[2];
+  expected.mean.segment<2>(3) = R * step.mean.head<2>();
+  const double tilt =
+      options.ground_factor
+          ? (options.tilt_sigma_deg + options.tilt_rate_sigma_deg * std::abs(dt)) * kDegree
+          : kAnyTilt;
+  const double rise = options.ground_factor
+                          ? options.height_sigma_m + options.height_rate_sigma * std::abs(dt)
+                          : kAnyRise_m;
+  Matrix6d& P = expected.covariance;
+  P.setZero();
+  P.diagonal() << tilt * tilt, tilt * tilt, step.covariance(2, 2), 0, 0, rise * rise;
+  P.block<2, 2>(3, 3) = R * step.covariance.topLeftCorner<2, 2>() * R.transpose();
+  P.block<2, 1>(3, 2) = R * step.covariance.block<2, 1>(0, 2);
+  P.block<1, 2>(2, 3) = P.block<2, 1>(3, 2).transpose();
+  return expected;
+}
+
+MotionAnswer estimate_motion(const ObjectTrack& track, const ImageFactor& image,
+                             const MotionQuestion& question, const std::vector<Twist>& starts,
+                             const TrackOptions& options) {
+  MotionAnswer answer;
+  answer.state = predicted(track.state, question.instant, options.noise);
+  answer.log_odds = track.log_odds;
+  const double dt = seconds_between(track.stamp, question.instant);
+  Expected expected{expected_motion(answer.state, question.R_rest_lidar_k, dt, options), {}};
+  expected.parked.covariance = common_error(question, options);
+  expected.moving.covariance += expected.parked.covariance;
+  answer.moving.mean = expected.moving.mean;
+  answer.moving.covariance = expected.moving.covariance;
+  answer.parked.covariance = expected.parked.covariance;
+  if (!image.observations.empty()) hear(answer, image, question, expected, starts, options);
+  answer.moves = options.static_test ? answer.log_odds > std::log(options.loss_ratio)
+                                     : answer.is_seen || answer.log_odds > 0;
+  answer.log_odds = std::clamp(answer.log_odds, -kMostLogOdds, kMostLogOdds);
+  return answer;
+}
+
+}  // namespace lidar_upsampling

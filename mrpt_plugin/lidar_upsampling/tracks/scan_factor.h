@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the lidar_upsampling authors
+#pragma once
+
+#include "lidar_upsampling/tracks/object_tracks.h"
+
+namespace lidar_upsampling {
+
+/// What two scans tell of an object.
+struct ScanLesson {
+  TrackState state;     ///< at the second one; its step since the first
+  double log_odds = 0;  ///< of moving
+};
+
+/// @brief The object's motion since its last sight, by registration of its points (where that
+/// fails, by its centroid), joined with what was expected.
+[[nodiscard]] ScanLesson learn_from_scans(const ObjectTrack& track, const ScanObject& object,
+                                          const TrackedScan& scan, const TrackOptions& options);
+
+[[nodiscard]] double prior_log_odds(const TrackOptions& options);
+
+}  // namespace lidar_upsampling
