@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the lidar_upsampling authors
+#include <gtest/gtest.h>
+
+#include "lidar_upsampling/tracks/object_tracks.h"
+
+namespace lidar_upsampling {
+namespace {
+
+const Stamp kStart = mrpt::Clock::time_point(mrpt::Clock::duration(10'000'000));
+
+ScanObject car_at(double x, double y) {
+  ScanObject car;
+  car.points.resize(100);
+  car.centroid = {x, y, 0.};
+  car.length = 4;
+  return car;
+}
+
+/// Scans of a vehicle at rest that show these objects; nothing can be registered.
+class Street {
+ public:
+  std::vector<int> show(double time_s, const std::vector<ScanObject>& objects) {
+    scan_.stamp = shifted(kStart, time_s);
+    scan_.points.assign(100, Eigen::Vector3f(10, 0, 0));
+    return take_up_scan(store_, objects,
+                        {scan_, T_rest_lidar_, step_covariance_, seen_, nullptr, {}}, {});
+  }
+  [[nodiscard]] int id(int track) const { return store_.tracks[track].id; }
+  [[nodiscard]] ObjectTrack& track(int index) { return store_.tracks[index]; }
+  [[nodiscard]] std::size_t num_tracks() const { return store_.tracks.size(); }
+
+ private:
+  LidarScan scan_;
+  Pose T_rest_lidar_ = Pose::Identity();
+  Matrix6d step_covariance_ = Matrix6d::Zero();
+  SeenSpace seen_{{}, 0.4};
+  TrackStore store_;
+};
+
+TEST(Association, keeps_an_object_at_40_metres_per_second_from_its_second_sight_on) {
+  Street street;
+  const int id = street.id(street.show(0, {car_at(30, 5)})[0]);
+  for (int scan = 1; scan < 5; ++scan)
+    EXPECT_EQ(street.id(street.show(0.1 * scan, {car_at(30 - 4 * scan, 5)})[0]), id);
+}
+
+TEST(Association, keeps_cars_that_are_parked_side_by_side_apart) {
+  Street street;
+  const auto before = street.show(0, {car_at(20, 0), car_at(20, 2.5), car_at(20, 5)});
+  const int first = street.id(before[0]), last = street.id(before[2]);
+  const auto after = street.show(0.1, {car_at(20, 5), car_at(20, 2.5), car_at(20, 0)});
+  EXPECT_EQ(street.id(after[0]), last);
+  EXPECT_EQ(street.id(after[2]), first);
+}
+
+TEST(Association, does_not_take_what_comes_into_sight_far_away_for_what_has_gone) {
+  Street street;
+  const int gone = street.id(street.show(0, {car_at(20, 0)})[0]);
+  EXPECT_NE(street.id(street.show(0.1, {car_at(60, 20)})[0]), gone);
+}
+
+TEST(Association, finds_a_mover_again_that_was_hidden_for_three_scans) {
+  Street street;
+  std::vector<int> seen;
+  for (int scan = 0; scan < 4; ++scan) seen = street.show(0.1 * scan, {car_at(30 - 1.5 * scan, 5)});
+  const int id = street.id(seen[0]);
+  for (int scan = 4; scan < 7; ++scan) street.show(0.1 * scan, {});
+  EXPECT_EQ(street.id(street.show(0.7, {car_at(30 - 1.5 * 7, 5)})[0]), id);
+}
+
+TEST(Association, forgets_an_object_of_which_nothing_is_known_any_more) {
+  Street street;
+  street.show(0, {car_at(30, 5)});
+  street.show(1, {});
+  EXPECT_EQ(street.num_tracks(), 0U);
+}
+
+TEST(Association, follows_a_wrong_prior_no_longer_than_to_the_next_scan) {
+  Street street;
+  const auto first = street.show(0, {car_at(30, 5)});
+  ObjectTrack& track = street.track(first[0]);
+  track.latest.mean[3] = track.state.mean[3] = 10;  // it is said to drive off...
+  track.latest.covariance(3, 3) = track.state.covariance(3, 3) = 0.01;
+  track.latest_log_odds = track.log_odds = 3;
+  const int id = track.id;
+  const auto second = street.show(0.1, {car_at(30, 5)});  // ...and does not
+  EXPECT_EQ(street.id(second[0]), id);
+  EXPECT_LT(street.track(second[0]).log_odds, 2);
+}
+
+}  // namespace
+}  // namespace lidar_upsampling

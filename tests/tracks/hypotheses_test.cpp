@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the lidar_upsampling authors
+#include "lidar_upsampling/tracks/hypotheses.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "tracks/car_on_pictures.h"
+
+namespace lidar_upsampling {
+namespace {
+
+using testing::ahead;
+using testing::car;
+using testing::kCentroid;
+using testing::seen_on;
+
+const Stamp kStart = mrpt::Clock::time_point(mrpt::Clock::duration(10'000'000));
+
+ObjectTrack new_track() {
+  ObjectTrack track;
+  track.stamp = kStart;
+  track.state = track.latest = new_track_state(kStart, {});
+  track.log_odds = -1;
+  return track;
+}
+
+ObjectTrack known_track(double vx, double log_odds) {
+  ObjectTrack track = new_track();
+  track.state.mean[3] = vx;
+  track.state.covariance(3, 3) = track.state.covariance(4, 4) = 0.04;
+  track.log_odds = log_odds;
+  return track;
+}
+
+MotionQuestion question_after(double dt, int num_followed = 60) {
+  MotionQuestion question;
+  question.instant = shifted(kStart, dt);
+  question.centroid = kCentroid;
+  question.num_followed = num_followed;
+  return question;
+}
+
+Twist to_the_side(double y) {
+  Twist motion = Twist::Zero();
+  motion[4] = y;
+  return motion;
+}
+
+ImageFactor picture_of(const Twist& motion, unsigned seed = 1) {
+  std::mt19937 random(seed);
+  std::normal_distribution<double> normal;
+  auto seen = seen_on(ahead(), car(), motion);
+  for (Observation& observation : seen)
+    observation.normalised += Eigen::Vector2d(0.3 * normal(random), 0.3 * normal(random)) / 700;
+  ImageFactor image;
+  image.add({ahead(), 1, Eigen::Vector3d::Zero()}, seen);
+  return image;
+}
+
+TEST(Hypotheses, a_new_object_that_the_picture_shows_to_move_moves) {
+  const Twist truth = to_the_side(0.5);
+  const MotionAnswer answer =
+      estimate_motion(new_track(), picture_of(truth), question_after(0.1), {truth}, {});
+  EXPECT_TRUE(answer.moves);
+  EXPECT_NEAR(answer.moving.mean[4], 0.5, 0.02);
+  EXPECT_NEAR(answer.state.velocity().y(), 5, 0.3);
+}
+
+TEST(Hypotheses, a_parked_car_stays_parked_on_every_noisy_picture) {
+  for (unsigned seed = 0; seed < 50; ++seed)
+    EXPECT_FALSE(
+        estimate_motion(new_track(), picture_of(Twist::Zero(), seed), question_after(0.1), {}, {})
+            .moves);
+}
+
+TEST(Hypotheses, what_the_ego_motion_may_be_wrong_by_is_no_motion) {
+  const Twist by_5_cm = to_the_side(0.05);
+  MotionQuestion question = question_after(0.1);
+  EXPECT_TRUE(estimate_motion(new_track(), picture_of(by_5_cm), question, {by_5_cm}, {}).log_odds >
+              -1)
+      << "with exact ego-motion it is one";
+  question.ego_covariance(4, 4) = 0.05 * 0.05;
+  EXPECT_FALSE(estimate_motion(new_track(), picture_of(by_5_cm), question, {by_5_cm}, {}).moves);
+}
+
+TEST(Hypotheses, a_mover_goes_on_where_no_camera_sees_it_ever_less_certainly) {
+  const ObjectTrack track = known_track(10, 5);
+  const MotionAnswer soon = estimate_motion(track, {}, question_after(0.1), {}, {});
+  const MotionAnswer later = estimate_motion(track, {}, question_after(0.3), {}, {});
+  EXPECT_TRUE(soon.moves);
+  EXPECT_FALSE(soon.is_seen);
+  EXPECT_NEAR(soon.moving.mean[3], 1, 1e-6);
+  EXPECT_NEAR(later.moving.mean[3], 3, 1e-6);
+  EXPECT_GT(later.moving.covariance(3, 3), 4 * soon.moving.covariance(3, 3));
+}
+
+TEST(Hypotheses, what_may_as_well_be_parked_stays_where_no_camera_sees_it) {
+  EXPECT_FALSE(estimate_motion(known_track(10, 0), {}, question_after(0.1), {}, {}).moves);
+}
+
+TEST(Hypotheses, points_that_agree_on_nothing_are_not_heard) {
+  ImageFactor image = picture_of(Twist::Zero());
+  std::mt19937 random(2);
+  std::uniform_real_distribution<double> anywhere(-0.1, 0.1);
+  for (Observation& observation : image.observations)
+    observation.normalised += Eigen::Vector2d(anywhere(random), anywhere(random));
+  const ObjectTrack track = known_track(10, 5);
+  const MotionAnswer answer = estimate_motion(track, image, question_after(0.1), {}, {});
+  EXPECT_FALSE(answer.is_seen);
+  EXPECT_EQ(answer.log_odds, track.log_odds);
+}
+
+TEST(Hypotheses, without_the_test_all_that_is_seen_moves_as_it_was_fitted) {
+  TrackOptions options;
+  options.static_test = false;
+  EXPECT_TRUE(
+      estimate_motion(new_track(), picture_of(Twist::Zero()), question_after(0.1), {}, options)
+          .moves);
+}
+
+}  // namespace
+}  // namespace lidar_upsampling

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the lidar_upsampling authors
+#include "lidar_upsampling/tracks/track_state.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <cmath>
+#include <random>
+
+namespace lidar_upsampling {
+namespace {
+
+const Stamp kStart = mrpt::Clock::time_point(mrpt::Clock::duration(10'000'000));
+
+TrackState state_of(double vx, double vy, double yaw_rate) {
+  TrackState state;
+  state.stamp = kStart;
+  state.mean << 0, 0, 0, vx, vy, yaw_rate;
+  return state;
+}
+
+PlanarStep seen_at(double x, double y, double sigma_m) {
+  PlanarStep step;
+  step.mean << x, y, 0;
+  step.covariance.diagonal() << sigma_m * sigma_m, sigma_m * sigma_m, 1;
+  return step;
+}
+
+TEST(TrackState, goes_straight_on_at_constant_velocity) {
+  const TrackState later = predicted(state_of(10, -2, 0), shifted(kStart, 0.5), {});
+  EXPECT_NEAR(later.mean[0], 5, 1e-9);
+  EXPECT_NEAR(later.mean[1], -1, 1e-9);
+  EXPECT_EQ(later.velocity(), Eigen::Vector2d(10, -2));
+}
+
+TEST(TrackState, goes_around_a_circle_at_constant_turn_rate) {
+  // A quarter of a circle of 10 m radius to the left, at 10 m/s.
+  const TrackState later = predicted(state_of(10, 0, 1), shifted(kStart, M_PI / 2), {});
+  EXPECT_NEAR(later.mean[0], 10, 1e-6);
+  EXPECT_NEAR(later.mean[1], 10, 1e-6);
+  EXPECT_NEAR(later.mean[2], M_PI / 2, 1e-6);
+  EXPECT_NEAR(later.mean[3], 0, 1e-5);
+  EXPECT_NEAR(later.mean[4], 10, 1e-5);
+}
+
+TEST(TrackState, grows_as_uncertain_in_many_small_steps_as_in_a_large_one) {
+  TrackState state = new_track_state(kStart, {});
+  const TrackState at_once = predicted(state, shifted(kStart, 0.4), {});
+  for (int i = 1; i <= 8; ++i) state = predicted(state, shifted(kStart, 0.05 * i), {});
+  EXPECT_TRUE(state.covariance.isApprox(at_once.covariance, 1e-9));
+}
+
+TEST(TrackState, does_not_go_back_in_time) {
+  const TrackState earlier = predicted(state_of(10, 0, 0), shifted(kStart, -0.1), {});
+  EXPECT_EQ(earlier.stamp, kStart);
+  EXPECT_EQ(earlier.mean[0], 0);
+}
+
+TEST(TrackState, learns_its_velocity_from_one_step) {
+  const TrackState before = predicted(new_track_state(kStart, {}), shifted(kStart, 0.1), {});
+  const TrackState after = updated(before, seen_at(3, -1, 0.02));
+  EXPECT_NEAR(after.velocity().x(), 30, 0.2);
+  EXPECT_NEAR(after.velocity().y(), -10, 0.1);
+  EXPECT_LT(std::sqrt(after.covariance(3, 3)), 0.5);
+}
+
+TEST(TrackState, takes_a_finished_estimate_as_it_takes_a_measurement) {
+  const TrackState before = predicted(new_track_state(kStart, {}), shifted(kStart, 0.1), {});
+  const TrackState measured = updated(before, seen_at(1, 0.2, 0.1));
+  const TrackState told = updated(before, before.step(), measured.step());
+  EXPECT_TRUE(told.mean.isApprox(measured.mean, 1e-9));
+  EXPECT_TRUE(told.covariance.isApprox(measured.covariance, 1e-6));
+}
+
+TEST(TrackState, counts_steps_from_where_it_is_seen_anew) {
+  TrackState state = predicted(state_of(10, 0, 0), shifted(kStart, 0.1), {});
+  state = from_here(state);
+  EXPECT_TRUE(state.mean.head<3>().isZero());
+  EXPECT_TRUE(state.covariance.topRows<3>().isZero());
+  EXPECT_EQ(state.velocity(), Eigen::Vector2d(10, 0));
+}
+
+// One object's drawn life: white acceleration, a sight every tenth of a second.
+double sq_velocity_error_in_sigmas(std::mt19937& random, const MotionNoise& noise) {
+  std::normal_distribution<double> normal;
+  constexpr double kSight_m = 0.03, kPeriod_s = 0.1;
+  constexpr int kFine = 20;
+  Eigen::Vector2d velocity(noise.unknown_speed_sigma * normal(random),
+                           noise.unknown_speed_sigma * normal(random));
+  TrackState state = new_track_state(kStart, noise);
+  for (int scan = 1; scan <= 6; ++scan) {
+    Eigen::Vector2d step = Eigen::Vector2d::Zero();
+    const double dt = kPeriod_s / kFine;
+    for (int i = 0; i < kFine; ++i) {
+      step += velocity * dt;
+      velocity +=
+          std::sqrt(noise.acceleration * dt) * Eigen::Vector2d(normal(random), normal(random));
+    }
+    const Stamp now = shifted(kStart, kPeriod_s * scan);
+    state = updated(predicted(state, now, noise),
+                    seen_at(step.x() + kSight_m * normal(random),
+                            step.y() + kSight_m * normal(random), kSight_m));
+    if (scan < 6) state = from_here(state);
+  }
+  const Eigen::Vector2d error = state.velocity() - velocity;
+  return error.dot(Eigen::Matrix2d(state.covariance.block<2, 2>(3, 3)).inverse() * error);
+}
+
+TEST(TrackState, is_as_uncertain_as_it_says_over_many_drawn_lives) {
+  MotionNoise noise;
+  noise.unknown_yaw_rate_sigma = noise.yaw_acceleration = 1e-6;
+  std::mt19937 random(1);
+  constexpr int kLives = 1000;
+  double sum = 0;
+  for (int i = 0; i < kLives; ++i) sum += sq_velocity_error_in_sigmas(random, noise);
+  // A chi-square of 2 kLives degrees of freedom: within four of its deviations.
+  EXPECT_NEAR(sum / (2 * kLives), 1, 4 * std::sqrt(1. / kLives));
+}
+
+}  // namespace
+}  // namespace lidar_upsampling
