@@ -4,14 +4,16 @@
 
 #include "lidar_upsampling/tracks/object_tracks.h"
 
+#include "tracks/car_on_pictures.h"
+
 namespace lidar_upsampling {
 namespace {
 
-const Stamp kStart = mrpt::Clock::time_point(mrpt::Clock::duration(10'000'000));
+using testing::kStart;
 
 ScanObject car_at(double x, double y) {
   ScanObject car;
-  car.points.resize(100);
+  car.points.resize(5);  // too few to be registered
   car.centroid = {x, y, 0.};
   car.length = 4;
   return car;

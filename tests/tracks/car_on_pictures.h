@@ -9,6 +9,7 @@
 /// A car's points, and how cameras see them.
 namespace lidar_upsampling::testing {
 
+inline const Stamp kStart{mrpt::Clock::duration(10'000'000)};
 inline const Eigen::Vector3d kCentroid(12, 0, 0);
 
 /// A camera at the lidar that looks along its +X.

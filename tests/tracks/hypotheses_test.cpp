@@ -11,12 +11,12 @@
 namespace lidar_upsampling {
 namespace {
 
+using testing::kStart;
+
 using testing::ahead;
 using testing::car;
 using testing::kCentroid;
 using testing::seen_on;
-
-const Stamp kStart = mrpt::Clock::time_point(mrpt::Clock::duration(10'000'000));
 
 ObjectTrack new_track() {
   ObjectTrack track;

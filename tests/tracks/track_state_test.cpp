@@ -9,10 +9,12 @@
 #include <cmath>
 #include <random>
 
+#include "tracks/car_on_pictures.h"
+
 namespace lidar_upsampling {
 namespace {
 
-const Stamp kStart = mrpt::Clock::time_point(mrpt::Clock::duration(10'000'000));
+using testing::kStart;
 
 TrackState state_of(double vx, double vy, double yaw_rate) {
   TrackState state;

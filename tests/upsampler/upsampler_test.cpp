@@ -76,7 +76,10 @@ double mean_error_of_moving_points(const StreetRun& street, const std::vector<Vi
 
 TEST(LidarUpsampler, who_knows_the_next_scan_moves_cars_better) {
   StreetRun street;
-  LidarUpsampler causal{moving_points()}, offline{moving_points()};
+  Config config = moving_points();
+  LidarUpsampler causal{config};
+  config.mode = "offline";
+  LidarUpsampler offline{config};
   const auto blind = street.run(causal), knowing = street.run(offline, true, true);
   ASSERT_EQ(blind.size(), 10U);
   ASSERT_EQ(knowing.size(), 10U);
@@ -86,7 +89,9 @@ TEST(LidarUpsampler, who_knows_the_next_scan_moves_cars_better) {
 
 TEST(LidarUpsampler, a_second_run_knows_from_the_first_scan_on_who_moves) {
   StreetRun street;
-  LidarUpsampler first{moving_points()}, second{moving_points()};
+  Config config = moving_points();
+  config.mode = "offline";
+  LidarUpsampler first{config}, second{config};
   first.keep_movers();
   const auto scouted = street.run(first);
   MoverHistory history = first.take_movers();
