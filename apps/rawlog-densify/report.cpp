@@ -144,6 +144,9 @@ nlohmann::json to_json(const DensifyReport& report) {
                       {"object_status", report.object_status},
                       {"warnings", report.warnings},
                       {"stages", nlohmann::json::array()},
+                      {"frames",
+                       {{"position_m", "LiDAR at the image"},
+                        {"velocity_m_s", "LiDAR at the key scan, over ground"}}},
                       {"objects", nlohmann::json::array()},
                       {"objects_out_of_view", nlohmann::json::array()}};
   for (const std::string& stage : report.stage_order) {

@@ -23,7 +23,7 @@ struct LidarUpsampler::KeyScan {
   std::vector<ScanObject> objects;  ///< with tracks in the world, once they have been found
   std::vector<int> track_of;        ///< of each object, in the store
   bool objects_found = false;
-  Matrix6d step_covariance = Matrix6d::Zero();  ///< of the ego-motion since the scan before
+  Matrix6d step_covariance = Matrix6d::Zero();     ///< of the ego-motion since the scan before
   std::unique_ptr<const BeamResampler> resampler;  ///< where virtual scans are to lie on the beams
 };
 
