@@ -75,7 +75,8 @@ double picture_cost(const Problem& problem, const Moved& moved) {
 
 double cost_of(const Problem& problem, const Twist& motion) {
   const Twist astray = motion - problem.prior.mean;
-  return picture_cost(problem, {rotation_of(motion.head<3>()), motion.tail<3>(), problem.centroid}) +
+  return picture_cost(problem,
+                      {rotation_of(motion.head<3>()), motion.tail<3>(), problem.centroid}) +
          astray.dot(problem.information * astray);
 }
 
@@ -93,8 +94,8 @@ NormalEquations linearised(const Problem& problem, const Twist& motion) {
     const auto at = residual_of(problem.image.observations[i],
                                 problem.image.views[problem.image.view_of[i]], moved, true);
     if (!at) continue;
-    const double weight = (nu + 2) / (nu * sq_sigma + at->px.squaredNorm()) /
-                          problem.noise.points_per_observation;
+    const double weight =
+        (nu + 2) / (nu * sq_sigma + at->px.squaredNorm()) / problem.noise.points_per_observation;
     result.H.noalias() += weight * at->by_motion.transpose() * at->by_motion;
     result.b.noalias() -= weight * at->by_motion.transpose() * at->px;
   }
@@ -171,12 +172,14 @@ double measured_sigma_px(const ImageFactor& image, const Eigen::Vector3d& centro
   for (int round = 0; round < 5; ++round) {
     double sum = 0;
     for (std::size_t i = 0; i < image.observations.size(); ++i) {
-      const auto at = residual_of(image.observations[i], image.views[image.view_of[i]], moved, false);
+      const auto at =
+          residual_of(image.observations[i], image.views[image.view_of[i]], moved, false);
       const double sq = at ? at->px.squaredNorm() : 1e6;
       sum += 0.5 * (nu + 2) / (nu + sq / sq_sigma) * sq;
     }
     const auto count = static_cast<double>(image.observations.size());
-    sq_sigma = (kExpectedCounts * noise.sigma_px * noise.sigma_px + sum) / (kExpectedCounts + count);
+    sq_sigma =
+        (kExpectedCounts * noise.sigma_px * noise.sigma_px + sum) / (kExpectedCounts + count);
   }
   return std::max(kFinest_px, std::sqrt(sq_sigma));
 }
