@@ -8,7 +8,7 @@
 . "$(dirname "$0")/runs.sh"
 read -r -a seeds <<< "${SEEDS:-101}"
 read -r -a names <<< "${SCENARIOS:-motorway crossing_crowd real_rig}"
-sections="points klt object_motion"
+sections="points klt object_tracks"
 failed=0
 mkdir -p "$OUT/sensitivity"
 
