@@ -113,28 +113,17 @@ std::vector<int> road_user_clusters(const LidarScan& scan, const SceneSegments& 
 std::vector<Detection> ClusterDetector::detect(const DetectorInput& input) {
   if (input.key_scan == nullptr || input.segments == nullptr) return {};
   const SceneSegments& segments = *input.segments;
-  const bool has_ground = segments.ground.status == GroundStatus::found;
   const int min_box_size =
       input.next_scan_tells ? options_.min_box_size_by_scans : options_.min_box_size;
-  const ViewEdge view_edge(*input.key_scan, segments.horizontal_step_deg);
   std::vector<Detection> detections;
-  for (std::size_t i = 0; i < segments.clusters.size(); ++i) {
+  for (const int i : road_user_clusters(*input.key_scan, segments, options_)) {
     const auto& cluster = segments.clusters[i];
     const ClusterExtent& extent = segments.extents[i];
-    const double ring_m = std::tan(segments.vertical_step_deg * kDegree) * extent.centroid.norm();
-    if (!has_size_of_road_user(extent, cluster.size(), has_ground, ring_m,
-                               view_edge.cuts_off(cluster), options_))
-      continue;
     if ((input.T_camera_lidar * extent.centroid.cast<double>()).z() <= 0) continue;
     const Seen seen = look_at(i, input);
     if (seen.num_points < options_.min_points ||
         seen.num_points < options_.min_visible * static_cast<double>(cluster.size()) ||
         std::min(seen.box.width(), seen.box.height()) < min_box_size) {
-      continue;
-    }
-    // The ring below may just have missed it.
-    if (has_ground && extent.bottom > options_.max_bottom + ring_m &&
-        !foot_is_hidden(*input.key_scan, segments.ground, cluster)) {
       continue;
     }
     detections.push_back({seen.box, class_by_size(extent), 1., -1, cluster});
