@@ -59,11 +59,19 @@ std::optional<VirtualScan> Densification::feed_scan(const CObservation::Ptr& obs
   }
   apply(job_.rig, *scan);
   if (pictures_) pictures_->real_scan(*scan);
-  const Stamp stamp = scan->stamp;
-  auto waiting = upsampler_.insert_scan(std::move(*scan));
-  if (ahead_)
-    if (const auto next = ahead_->after(stamp)) upsampler_.expect_next(*next);
-  return waiting;
+  look_ahead();
+  return upsampler_.insert_scan(std::move(*scan));
+}
+
+// The scan at hand is the first of those ahead.
+void Densification::look_ahead() {
+  if (!ahead_) return;
+  const int wanted = report_.num_scans + job_.config.scans_ahead;
+  for (; num_expected_ < wanted; ++num_expected_) {
+    auto scan = ahead_->next();
+    if (!scan) return;
+    upsampler_.expect(std::move(*scan));
+  }
 }
 
 std::optional<VirtualScan> Densification::feed_image(CObservation& observation) {

@@ -32,17 +32,12 @@ class Densification {
   /// @return the virtual scan that still waits for other cameras, if any.
   [[nodiscard]] std::optional<VirtualScan> flush();
 
-  /// Before the first observation: what another run over the log has found to move; or that this
-  /// run is to keep it.
-  void expect_movers(MoverHistory history) { upsampler_.expect_movers(std::move(history)); }
-  void keep_movers() { upsampler_.keep_movers(); }
-  [[nodiscard]] MoverHistory take_movers() { return upsampler_.take_movers(); }
-
   /// The last real scan as the log held it; null before the first.
   [[nodiscard]] const mrpt::obs::CObservation::Ptr& last_real() const { return last_real_; }
 
  private:
   std::optional<VirtualScan> feed_scan(const mrpt::obs::CObservation::Ptr& observation);
+  void look_ahead();
   std::optional<VirtualScan> feed_image(mrpt::obs::CObservation& observation);
   std::optional<VirtualScan> noted(std::optional<VirtualScan> scan);
 
@@ -54,6 +49,7 @@ class Densification {
   std::set<std::string> camera_labels_;
   std::optional<Pictures> pictures_;
   std::optional<ScansAhead> ahead_;  ///< with mode = offline
+  int num_expected_ = 0;             ///< scans that were told ahead
 };
 
 }  // namespace lidar_upsampling

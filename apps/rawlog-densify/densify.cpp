@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "densification.h"
-#include "first_run.h"
 #include "lidar_upsampling/front_end/pose_input.h"
 #include "lidar_upsampling/front_end/virtual_observations.h"
 #include "lidar_upsampling/io/external_storage.h"
@@ -51,8 +50,6 @@ class Insertion {
  public:
   Insertion(const DensifyJob& job, const LogIndex& index, DensifyReport& report)
       : report_(report), form_(output_form(job.config)), run_(job, index, report) {}
-
-  void expect_movers(MoverHistory history) { run_.expect_movers(std::move(history)); }
 
   Neighbours feed(const CObservation::Ptr& observation) {
     Neighbours result;
@@ -161,7 +158,7 @@ DensifyReport densify(const DensifyJob& job, const std::function<void(double)>& 
   report.input = job.input;
   report.output = job.output;
   report.mode = job.config.mode;
-  report.hindsight = job.config.mode == "offline" && job.config.hindsight;
+  report.hindsight = job.config.mode == "offline";
   report.detector = detector_name(job.config);
   Output output(job, report);
 
@@ -172,14 +169,6 @@ DensifyReport densify(const DensifyJob& job, const std::function<void(double)>& 
                              "; --accept-truncated densifies what comes before");
   take_poses_from_file(job.config, job.rig, index);
   Insertion run(job, index, report);
-  double begun = kIndexShare;
-  if (report.hindsight) {
-    constexpr double kFirstRunShare = 0.4;
-    const Timed first_run(report, "first run");
-    run.expect_movers(
-        find_movers(job, index, [&](double share) { tell(kIndexShare + kFirstRunShare * share); }));
-    begun += kFirstRunShare;
-  }
   if (index.corruption) report.warn(*index.corruption);
 
   RawlogReader reader(job.input);
@@ -187,7 +176,7 @@ DensifyReport densify(const DensifyJob& job, const std::function<void(double)>& 
     const auto entry = read_next(reader, report);
     if (!entry) break;
     densify_entry(*entry, run, output);
-    tell(begun + (1 - begun) * reader.progress());
+    tell(kIndexShare + (1 - kIndexShare) * reader.progress());
   }
   for (const auto& observation : run.flush()) output.write(*observation);
   output.commit();

@@ -165,8 +165,8 @@ nlohmann::json to_json(const DensifyReport& report) {
 
 std::string summary(const DensifyReport& report) {
   std::ostringstream text;
-  text << "mode              " << report.mode
-       << (report.hindsight ? ", after a first run over the log" : "") << '\n'
+  text << "mode              " << report.mode << (report.hindsight ? ", with scans to come" : "")
+       << '\n'
        << "ego-motion        " << report.ego_source << '\n'
        << "object candidates " << report.detector << '\n'
        << "real scans        " << report.num_scans << '\n'

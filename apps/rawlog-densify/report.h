@@ -19,7 +19,7 @@ struct DensifyReport {
   std::string input, output;
   std::string mode, ego_source, detector, carrier;
   double camera_time_offset_ms = 0;  ///< as set: a judge needs it
-  bool hindsight = false;            ///< whether a first run has told who moves
+  bool hindsight = false;            ///< whether scans to come have told who moves
   std::size_t num_objects_in = 0;    ///< entries of the input log
   std::size_t num_scans = 0;         ///< real scans of the chosen LiDAR
   std::size_t num_images = 0;        ///< images of the chosen cameras

@@ -11,13 +11,12 @@ namespace lidar_upsampling {
 
 using mrpt::obs::CObservation;
 
-std::optional<LidarScan> ScansAhead::after(Stamp stamp) {
-  for (;;) {
-    while (!read_.empty() && read_.front().stamp <= stamp) read_.pop_front();
-    if (!read_.empty()) return read_.front();
-    if (at_end_) return {};
-    read_on();
-  }
+std::optional<LidarScan> ScansAhead::next() {
+  while (read_.empty() && !at_end_) read_on();
+  if (read_.empty()) return {};
+  LidarScan scan = std::move(read_.front());
+  read_.pop_front();
+  return scan;
 }
 
 void ScansAhead::read_on() {

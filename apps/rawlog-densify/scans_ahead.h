@@ -20,8 +20,8 @@ class ScansAhead {
   ScansAhead(const std::string& path, std::string lidar_label, const RigOverrides& rig)
       : reader_(path), lidar_label_(std::move(lidar_label)), rig_(rig) {}
 
-  /// @return the first scan later than `stamp`, none at the end of the log. Stamps must not fall.
-  [[nodiscard]] std::optional<LidarScan> after(Stamp stamp);
+  /// @return the next scan, none at the end of the log.
+  [[nodiscard]] std::optional<LidarScan> next();
 
  private:
   void read_on();

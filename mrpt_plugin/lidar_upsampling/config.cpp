@@ -208,11 +208,10 @@ void leave_the_picture_alone(Config& config) {
   config.resample = "none";
   config.point_tracks.off_edges = false;
   config.ego_motion.fuse = false;
-  ObjectMotionOptions& options = config.object_motion;
-  options.world_tracks = options.static_test = options.drop_covered = options.part_standing = false;
-  options.prior.from_scans = options.prior.from_images = options.prior.ground = false;
-  options.min_points = 20;
-  options.pose.min_inliers = 15;
+  config.object_motion.world_tracks = false;
+  config.object_motion.picture.min_points = 20;
+  config.object_motion.picture.pose.min_inliers = 15;
+  config.object_tracks.scan_factor = false;
 }
 
 }  // namespace
@@ -240,15 +239,6 @@ void Config::saveToConfigFile(CConfigFileBase& target, const std::string& sectio
 
 std::string Config::virtual_label(const std::string& real_label) const {
   return output_label.empty() ? real_label + "_VIRTUAL" : output_label;
-}
-
-TrackOptions Config::track_options() const {
-  TrackOptions options = object_tracks;
-  options.scan_factor = object_motion.prior.from_scans;
-  options.image_factor = object_motion.prior.from_images;
-  options.ground_factor = object_motion.prior.ground;
-  options.static_test = object_motion.static_test;
-  return options;
 }
 
 void check_sections(const CConfigFileBase& source) {

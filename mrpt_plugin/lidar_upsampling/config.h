@@ -12,16 +12,15 @@
 #include "lidar_upsampling/ego/pose_file.h"
 #include "lidar_upsampling/ego/static_points.h"
 #include "lidar_upsampling/objects/detector.h"
-#include "lidar_upsampling/objects/object_motion.h"
 #include "lidar_upsampling/objects/object_points.h"
 #include "lidar_upsampling/objects/point_tracks.h"
 #include "lidar_upsampling/objects/scene_segments.h"
-#include "lidar_upsampling/objects/tracks.h"
 #include "lidar_upsampling/registration/scan_registration.h"
 #include "lidar_upsampling/scan/compose.h"
 #include "lidar_upsampling/scan/resample.h"
 #include "lidar_upsampling/scan/sweep.h"
 #include "lidar_upsampling/tracks/object_tracks.h"
+#include "lidar_upsampling/tracks/picture_motion.h"
 #include "lidar_upsampling/vision/klt.h"
 
 namespace lidar_upsampling {
@@ -37,6 +36,12 @@ struct TimingOptions {
       120;  ///< points are first put on a picture at most this long before the scan
 };
 
+/// How each object's own motion is found.
+struct ObjectMotionOptions {
+  PictureMotionOptions picture;
+  bool world_tracks = true;  ///< each object one track in the world; off: the paper
+};
+
 /// @brief All settings, with defaults that densify any sane log. Loaded from an INI file; the
 /// section handed to `loadFromConfigFile` holds the main keys, each step has a section of its own.
 struct Config : public mrpt::config::CLoadableOptions {
@@ -46,7 +51,7 @@ struct Config : public mrpt::config::CLoadableOptions {
   std::string carrier = "auto";
   int compression = 1;
   std::string mode = "causal";
-  bool hindsight = true;
+  int scans_ahead = 3;
   std::string preset = "default";
   std::string resample = "beam";
   int annotate = 0;
@@ -61,21 +66,12 @@ struct Config : public mrpt::config::CLoadableOptions {
   DetectorOptions detector;
   SegmentOptions segments;
   ObjectPointOptions object_points;
-  TrackerOptions tracks;
   PointTrackOptions point_tracks;
   KltOptions klt;
   ObjectMotionOptions object_motion;
   TrackOptions object_tracks;
   ResampleOptions resampling;
   SweepOptions sweep;
-
-  /// Whether each object is one track in the world, and all cameras' pictures make one estimate of
-  /// its motion; off: each camera has tracks of its own, as in the paper and, so far, offline.
-  [[nodiscard]] bool tracks_in_world() const {
-    return object_motion.world_tracks && mode != "offline";
-  }
-  /// What tracks are told, the switches of [object_motion] included.
-  [[nodiscard]] TrackOptions track_options() const;
 
   /// @throw std::invalid_argument naming section, key and value: an unknown key in a section of
   /// ours, a value of the wrong type or outside its range.

@@ -27,6 +27,12 @@ using Matrix6d = Eigen::Matrix<double, 6, 6>;
 /// @brief [exp(w) | t] * pose, of increment = (w, t): unlike exp_se3, t is not turned on the way.
 [[nodiscard]] Pose incremented(const Twist& increment, const Pose& pose);
 
+/// A vehicle's motion as a sensor on it makes it.
+[[nodiscard]] inline Pose between_sensors(const Pose& T_to_from_vehicle,
+                                          const Pose& T_vehicle_sensor) {
+  return T_vehicle_sensor.inverse() * T_to_from_vehicle * T_vehicle_sensor;
+}
+
 /// A proper rotation again, after many products.
 [[nodiscard]] Pose renormalized(const Pose& pose);
 

@@ -25,8 +25,8 @@ void visit_main(Config& c, SettingVisitor& v) {
             "gzip level of the output; above 1 gains nothing");
   v.word("mode", c.mode, {"causal", "offline"},
          "causal: only the past is used, as a live system must; offline: the next real scan, too");
-  v.flag("hindsight", c.hindsight,
-         "offline: the log is run over twice; who is found to move is known to before, too");
+  v.integer("scans_ahead", c.scans_ahead, {1, 20},
+            "offline: real scans after the key scan that tell of its objects' motions");
   v.word("preset", c.preset, {"default", "paper"},
          "paper: exactly the published method, every object moved by its own pose");
   v.word("resample", c.resample, {"none", "beam"},
@@ -172,12 +172,6 @@ void visit_scene(Config& c, SettingVisitor& v) {
   v.number("voxel_size_m", k.voxel_size, kNotNegative,
            "points this close are handled as one; 0: each alone");
   v.integer("min_points", k.min_points, kPositive, "smaller clusters are dropped");
-  TrackerOptions& t = c.tracks;
-  v.section("tracks", "Objects from scan to scan.");
-  v.number("min_overlap", t.min_overlap, kShare, "of a box with the predicted one");
-  v.number("max_distance_m", t.max_distance, kPositive, "of a centroid from the predicted one");
-  v.integer("max_misses", t.max_misses, kNotNegative,
-            "scans without a sight that a track survives");
 }
 
 void visit_vision(Config& c, SettingVisitor& v) {
@@ -204,8 +198,18 @@ void visit_vision(Config& c, SettingVisitor& v) {
 }
 
 void visit_motion(Config& c, SettingVisitor& v) {
-  ObjectMotionOptions& o = c.object_motion;
-  v.section("object_motion", "Each object's own motion.");
+  PictureMotionOptions& o = c.object_motion.picture;
+  v.section("object_motion",
+            "Each object's own motion: what is asked, and the pose of its points.");
+  v.flag("world_tracks", c.object_motion.world_tracks,
+         "each object one track in the world; false: the pose of its points on each picture alone, "
+         "as in the paper");
+  TrackOptions& t = c.object_tracks;
+  v.flag("static_test", t.static_test,
+         "an object that cannot be told from a parked one stays parked");
+  v.flag("scan_prior", t.scan_factor, "the motion between real scans weighs in, by registration");
+  v.flag("image_prior", t.image_factor, "the motion seen on images before the key scan weighs in");
+  v.flag("ground_prior", t.ground_factor, "that vehicles stay on the ground and level weighs in");
   v.number("sigma_px", o.pose.sigma_px, kPositive, "noise of a followed point, per axis");
   v.number("outlier_range_px", o.pose.outlier_range_px, kPositive,
            "square in which a wrong point may lie");
@@ -215,39 +219,14 @@ void visit_motion(Config& c, SettingVisitor& v) {
   v.integer("max_iterations", o.pose.ransac.max_iterations, {1, 1e6}, "of the MLESAC loop");
   v.number("confidence", o.pose.ransac.confidence, {0.01, 0.999999},
            "of having drawn a clean sample");
-  v.integer("min_points", o.min_points, {4, 1e6}, "followed points; fewer: the ego-motion is used");
+  v.integer("min_points", o.min_points, {4, 1e6}, "followed points; fewer: no pose of them");
   v.number("max_speed_m_s", o.max_speed, kPositive, "over ground; faster is no consensus");
-  v.flag("static_test", o.static_test,
-         "an object that cannot be told from a parked one stays parked");
-  v.number("static_significance", o.static_significance, kNotNegative,
-           "chi-square of 6 degrees of freedom");
-  v.number("static_tolerance_px", o.static_tolerance_px, kNotNegative,
-           "what ego-motion and calibration may be wrong on the picture");
-  v.number("points_per_observation", o.pose.points_per_observation, {1, 1000},
-           "neighbouring points err alike: so many count as one");
-  v.flag("world_tracks", o.world_tracks,
-         "each object one track in the world; else, and with mode = offline, one per camera");
-  MotionPriorOptions& p = o.prior;
-  v.flag("drop_covered", o.drop_covered,
-         "points that a nearer moving object covers by now say nothing");
-  v.flag("part_standing", o.part_standing,
-         "what stands beside a mover in one cluster is parted from it by the picture");
-  v.flag("scan_prior", p.from_scans, "the motion between real scans weighs in, by registration");
-  v.flag("image_prior", p.from_images, "the motion seen on images before the key scan weighs in");
-  v.flag("ground_prior", p.ground, "that vehicles stay on the ground and level weighs in");
-  v.number("unknown_speed_sigma_m_s", p.unknown_speed_sigma, kPositive,
-           "of an object seen for the first time");
-  v.number("acceleration_sigma_m_s2", p.acceleration_sigma, kPositive,
-           "by how much velocities change");
-  v.number("yaw_rate_sigma_rad_s", p.yaw_rate_sigma, kPositive, "of an object known before");
-  v.number("height_sigma_m", p.height_sigma_m, kPositive, "vehicles stay on the ground");
-  v.number("tilt_sigma_deg", p.tilt_sigma_deg, kPositive, "vehicles stay level");
 }
 
 void visit_tracks(Config& c, SettingVisitor& v) {
   TrackOptions& t = c.object_tracks;
   constexpr Range kProbability{1e-6, 1 - 1e-6};
-  v.section("object_tracks", "Objects as tracks in the world, with world_tracks = true.");
+  v.section("object_tracks", "Objects as tracks in the world.");
   v.number("moving_prior", t.moving_prior, kProbability,
            "probability that a candidate moves of which nothing else is known");
   v.number("loss_ratio", t.loss_ratio, kPositive,

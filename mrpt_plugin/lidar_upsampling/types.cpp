@@ -37,6 +37,13 @@ const char* to_string(Resampling resampling) {
   return "unknown";
 }
 
+double intersection_over_union(const Box2d& a, const Box2d& b) {
+  const Box2d common{std::max(a.left, b.left), std::max(a.top, b.top), std::min(a.right, b.right),
+                     std::min(a.bottom, b.bottom)};
+  const double both = common.area();
+  return both > 0 ? both / (a.area() + b.area() - both) : 0;
+}
+
 Eigen::Matrix3d position_uncertainty(const ObjectMotion& object) {
   return object.position_covariance + object.unproven_step * object.unproven_step.transpose();
 }

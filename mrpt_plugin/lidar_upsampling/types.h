@@ -102,6 +102,8 @@ struct Box2d {
   }
 };
 
+[[nodiscard]] double intersection_over_union(const Box2d& a, const Box2d& b);
+
 /// An object candidate on one image.
 struct Detection {
   Box2d box;

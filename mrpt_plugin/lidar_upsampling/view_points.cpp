@@ -14,13 +14,14 @@ struct Patches {
   std::vector<Eigen::Vector3d> beside;  ///< m, lidar frame at k
 };
 
-Patches patches_of(Candidate& candidate, const AnchoredScan& anchored, const CameraView& view,
-                   const LidarScan& scan, const Pose& T_camera_lidar_a, const Config& config) {
+Patches patches_of(const FollowedObject& candidate, const AnchoredScan& anchored,
+                   const CameraView& view, const LidarScan& scan, const Pose& T_camera_lidar_a,
+                   const Config& config) {
   const CameraModel& camera = view.camera.model;
   const double until_anchor = view.anchor_dt - candidate.time_s;
-  const int enough = 2 * config.object_motion.min_points;
+  const int enough = 2 * config.object_motion.picture.min_points;
   Patches patches{followable_points(anchored, candidate.points, enough), {}};
-  candidate.on_edges =
+  const bool on_edges =
       std::any_of(patches.at.begin(), patches.at.end(), [&](const ProjectedPoint& point) {
         return anchored.on_edge[anchored.position[point.index]] != 0;
       });
@@ -29,7 +30,7 @@ Patches patches_of(Candidate& candidate, const AnchoredScan& anchored, const Cam
     T_camera_a_lidar_k = T_camera_lidar_a * exp_se3(Twist(candidate.rate * until_anchor));
     patches.at = reprojected(patches.at, scan, camera, T_camera_a_lidar_k);
   }
-  if (!candidate.on_edges || !config.point_tracks.off_edges) return patches;
+  if (!on_edges || !config.point_tracks.off_edges) return patches;
   const std::vector<cv::Point2f> shifts = inward_shifts(anchored, candidate.points, patches.at);
   for (std::size_t i = 0; i < shifts.size(); ++i) {
     ProjectedPoint& at = patches.at[i];
@@ -42,36 +43,18 @@ Patches patches_of(Candidate& candidate, const AnchoredScan& anchored, const Cam
 }
 
 void add_static_points(PointTracks& tracks, const AnchoredScan& anchored,
-                       const std::vector<Candidate>& candidates, const LidarScan& scan,
+                       const std::vector<FollowedObject>& candidates, const LidarScan& scan,
                        const cv::Mat& texture, const StaticPointOptions& options) {
   std::vector<std::uint8_t> unreliable(anchored.points.size()),
       candidate(anchored.points.size(), 0);
   for (std::size_t i = 0; i < unreliable.size(); ++i)
     unreliable[i] = anchored.hidden[i] | anchored.on_edge[i];
-  for (const Candidate& object : candidates)
+  for (const FollowedObject& object : candidates)
     for (const int i : object.points)
       if (anchored.position[i] >= 0) candidate[anchored.position[i]] = 1;
   const auto chosen = choose_static_points(
       {anchored.points, unreliable, candidate, texture.size(), texture}, options);
   add_points(tracks, anchored.points, chosen, scan, kStaticOwner);
-}
-
-// Prediction of all followed points; where one leaves the lens model, its last position.
-std::vector<cv::Point2f> predict_pixels(const CameraView& view, const Pose& T_camera_t_lidar_k,
-                                        double dt) {
-  std::vector<Pose> of_owner{T_camera_t_lidar_k};
-  for (const Candidate& candidate : view.candidates)
-    of_owner.push_back(T_camera_t_lidar_k *
-                       exp_se3(Twist(candidate.rate * (dt - candidate.time_s))));
-  constexpr double kFarOutside = -1e4;
-  std::vector<cv::Point2f> pixels(view.points.size());
-  for (std::size_t i = 0; i < pixels.size(); ++i) {
-    const auto pixel = project(
-        view.camera.model, of_owner[view.points.owner[i] + 1] * view.points.point[i], kFarOutside);
-    pixels[i] = pixel ? cv::Point2f(static_cast<float>(pixel->x()), static_cast<float>(pixel->y()))
-                      : view.points.last_px[i];
-  }
-  return pixels;
 }
 
 }  // namespace
@@ -80,25 +63,15 @@ void choose_points(CameraView& view, const AnchoredScan& anchored, const cv::Mat
                    const LidarScan& scan, const Pose& T_camera_lidar_a, bool with_static_points,
                    const Config& config) {
   const PointTrackOptions& options = config.point_tracks;
-  for (std::size_t i = 0; i < view.candidates.size(); ++i) {
-    Candidate& candidate = view.candidates[i];
-    candidate.anchor_rate = candidate.rate;
-    const Patches patches = patches_of(candidate, anchored, view, scan, T_camera_lidar_a, config);
+  for (std::size_t i = 0; i < view.objects.size(); ++i) {
+    const Patches patches =
+        patches_of(view.objects[i], anchored, view, scan, T_camera_lidar_a, config);
     const auto chosen =
         choose_spread(patches.at, texture, options.max_points_per_object, options.border_px);
     add_points(view.points, patches.at, chosen, scan, static_cast<int>(i), patches.beside);
   }
   if (with_static_points)
-    add_static_points(view.points, anchored, view.candidates, scan, texture, config.static_points);
-}
-
-void follow_view(CameraView& view, const Picture& picture, const LidarScan& key_scan,
-                 const Pose& T_lidar_t_lidar_k_predicted, const Config& config) {
-  const Pose T_camera_t_lidar_k =
-      T_camera_lidar_of(view.camera, key_scan.T_vehicle_lidar) * T_lidar_t_lidar_k_predicted;
-  const double dt = seconds_between(key_scan.stamp, picture.instant);
-  follow_points(view.points, view.anchor->pyramid, picture.pyramid,
-                predict_pixels(view, T_camera_t_lidar_k, dt), config.klt);
+    add_static_points(view.points, anchored, view.objects, scan, texture, config.static_points);
 }
 
 }  // namespace lidar_upsampling

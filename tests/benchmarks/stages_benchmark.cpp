@@ -11,8 +11,8 @@
 #include "lidar_upsampling/ego/static_points.h"
 #include "lidar_upsampling/io/carriers.h"
 #include "lidar_upsampling/io/rawlog_stream.h"
-#include "lidar_upsampling/objects/detector.h"
 #include "lidar_upsampling/objects/point_tracks.h"
+#include "lidar_upsampling/objects/road_users.h"
 #include "lidar_upsampling/registration/scan_registration.h"
 #include "lidar_upsampling/scan/compose.h"
 #include "lidar_upsampling/scan/resample.h"
@@ -81,12 +81,10 @@ void ground_and_clusters(benchmark::State& state) {
   state.counters["clusters"] = static_cast<double>(in.segments.clusters.size());
 }
 
-void cluster_detector(benchmark::State& state) {
+void road_users(benchmark::State& state) {
   const Inputs& in = inputs();
-  const auto detector = make_detector({});
   std::size_t found = 0;
-  while (state.KeepRunning())
-    found = detector->detect({in.key, &in.scan, &in.segments, in.T_camera_lidar}).size();
+  while (state.KeepRunning()) found = road_user_clusters(in.scan, in.segments, {}).size();
   state.counters["objects"] = static_cast<double>(found);
 }
 
@@ -209,7 +207,7 @@ void write_scan(benchmark::State& state) {
 LIDAR_UPSAMPLING_STAGE_BENCHMARK(image_pyramid);
 LIDAR_UPSAMPLING_STAGE_BENCHMARK(project_and_mark);
 LIDAR_UPSAMPLING_STAGE_BENCHMARK(ground_and_clusters);
-LIDAR_UPSAMPLING_STAGE_BENCHMARK(cluster_detector);
+LIDAR_UPSAMPLING_STAGE_BENCHMARK(road_users);
 LIDAR_UPSAMPLING_STAGE_BENCHMARK(scan_registration);
 LIDAR_UPSAMPLING_STAGE_BENCHMARK(klt_1000_points);
 LIDAR_UPSAMPLING_STAGE_BENCHMARK(pose_100_points);

@@ -8,8 +8,6 @@
 #include <filesystem>
 #include <opencv2/imgcodecs.hpp>
 
-#include "lidar_upsampling/objects/tracks.h"
-
 namespace lidar_upsampling {
 namespace {
 

@@ -4,8 +4,9 @@
 
 #include <gtest/gtest.h>
 
-#include "lidar_upsampling/objects/cluster_detector.h"
-#include "lidar_upsampling/objects/tracks.h"
+#include <set>
+
+#include "lidar_upsampling/objects/road_users.h"
 #include "street_scan.h"
 
 namespace lidar_upsampling {
@@ -34,13 +35,6 @@ Box2d box_of(const BoxObject& object) {
     }
   }
   return box;
-}
-
-/// A car with the air under it, as on a picture it stands on its wheels.
-BoxObject standing(BoxObject object) {
-  object.height += object.center.z() - flat(0, 0);
-  object.center.z() = flat(0, 0);
-  return object;
 }
 
 double share_of(const Street& street, const std::vector<int>& points, int object) {
@@ -116,37 +110,20 @@ TEST_F(ObjectPoints, there_are_none_in_a_box_on_the_empty_road) {
   EXPECT_FALSE(select({560, 200, 660, 300}));
 }
 
-TEST_F(ObjectPoints, cluster_detector_boxes_cars_and_leaves_walls) {
+TEST_F(ObjectPoints, of_road_users_are_clusters_of_cars_and_not_of_walls) {
   set_up({{{12, 1, -1.6}, 4.2, 1.8, 1.4, 0.2},
           {{25, -3, -1.6}, 4.2, 1.8, 1.5, 0},
           {{25, 12, -1.8}, 40, 0.5, 3.5, 0}});
-  CameraImage image;
-  image.camera = wide_camera();
-  DetectorInput input{image, &street_.scan, &segments_, forward_camera()};
-  const auto detector = make_detector({});
-  const auto detections = detector->detect(input);
-  ASSERT_EQ(detections.size(), 2U);
-  for (const Detection& detection : detections) {
-    const int object = street_.truth[detection.points.front()];
-    ASSERT_GE(object, 0);
-    EXPECT_EQ(detection.class_name, "car");
-    EXPECT_GT(intersection_over_union(detection.box, box_of(standing(objects_[object]))), 0.75);
-    EXPECT_EQ(share_of(street_, detection.points, object), 1);
+  const auto found = road_user_clusters(street_.scan, segments_, {});
+  std::set<int> objects;
+  for (const int cluster : found) {
+    const auto& points = segments_.clusters[cluster];
+    const int object = street_.truth[points.front()];
+    objects.insert(object);
+    EXPECT_STREQ(class_by_size(segments_.extents[cluster]), "car");
+    EXPECT_EQ(share_of(street_, points, object), 1);
   }
-  input.key_scan = nullptr;
-  EXPECT_TRUE(detector->detect(input).empty());
-}
-
-TEST_F(ObjectPoints, what_is_too_small_for_the_picture_is_a_candidate_where_the_next_scan_tells) {
-  set_up({{{25, 3, -1.8}, 4.2, 1.8, 1.5, 0}});
-  CameraImage image;
-  image.camera = wide_camera();
-  image.camera.model.fx = image.camera.model.fy = 100;  // the car is 6 px high
-  DetectorInput input{image, &street_.scan, &segments_, forward_camera()};
-  const auto detector = make_detector({});
-  EXPECT_TRUE(detector->detect(input).empty());
-  input.next_scan_tells = true;
-  EXPECT_EQ(detector->detect(input).size(), 1U);
+  EXPECT_EQ(objects, (std::set<int>{0, 1}));
 }
 
 TEST_F(ObjectPoints, a_car_that_one_ring_of_a_coarse_lidar_shows_low_is_a_candidate) {
@@ -165,13 +142,9 @@ TEST_F(ObjectPoints, a_car_that_one_ring_of_a_coarse_lidar_shows_low_is_a_candid
   coarse.scan.num_rings = 64;
   coarse.scan.num_columns = street_.scan.num_columns;
   SceneSegments segments = segment_scan(coarse.scan, {});
-  CameraImage image;
-  image.camera = wide_camera();
-  const auto detector = make_detector({});
-  const DetectorInput input{image, &coarse.scan, &segments, forward_camera()};
-  EXPECT_TRUE(detector->detect(input).empty());
+  EXPECT_TRUE(road_user_clusters(coarse.scan, segments, {}).empty());
   segments.vertical_step_deg = 2;
-  EXPECT_EQ(detector->detect(input).size(), 1U);
+  EXPECT_EQ(road_user_clusters(coarse.scan, segments, {}).size(), 1U);
 }
 
 }  // namespace

@@ -84,6 +84,32 @@ TEST(TrackState, counts_steps_from_where_it_is_seen_anew) {
   EXPECT_EQ(state.velocity(), Eigen::Vector2d(10, 0));
 }
 
+TEST(TrackState, is_no_other_where_what_comes_is_as_predicted) {
+  const TrackState now = predicted(new_track_state(kStart, {}), shifted(kStart, 0.1), {});
+  const TrackState same = smoothed(now, predicted(now, shifted(kStart, 0.2), {}), {});
+  EXPECT_TRUE(same.mean.isApprox(now.mean, 1e-9));
+  EXPECT_TRUE(same.covariance.isApprox(now.covariance, 1e-6));
+}
+
+TEST(TrackState, is_pulled_to_what_a_later_sight_tells) {
+  const TrackState start = new_track_state(kStart, {});
+  const TrackState later = updated(predicted(start, shifted(kStart, 0.1), {}), seen_at(1, 0, 0.01));
+  const TrackState halfway = smoothed(predicted(start, shifted(kStart, 0.05), {}), later, {});
+  EXPECT_NEAR(halfway.mean.x(), 0.5, 0.01);
+  EXPECT_NEAR(halfway.velocity().x(), 10, 0.1);
+  EXPECT_LT(std::sqrt(halfway.covariance(0, 0)), 0.05);
+}
+
+TEST(TrackState, learns_its_step_from_its_velocity) {
+  TrackState state = predicted(new_track_state(kStart, {}), shifted(kStart, 0.1), {});
+  TrackState known = state;
+  known.mean[3] = 10;
+  known.covariance.bottomRightCorner<3, 3>() *= 1e-4;
+  state = with_velocity(state, known);
+  EXPECT_NEAR(state.mean.x(), 1, 0.02);
+  EXPECT_LT(std::sqrt(state.covariance(0, 0)), 0.1);
+}
+
 // One object's drawn life: white acceleration, a sight every tenth of a second.
 double sq_velocity_error_in_sigmas(std::mt19937& random, const MotionNoise& noise) {
   std::normal_distribution<double> normal;

@@ -64,7 +64,7 @@ TEST(Config, values_are_read) {
   EXPECT_EQ(config.compose.objects, MovingObjects::drop);
   EXPECT_EQ(config.klt.window_px, 21);
   EXPECT_EQ(config.ego_motion.source, EgoSource::gnss);
-  EXPECT_FALSE(config.object_motion.static_test);
+  EXPECT_FALSE(config.object_tracks.static_test);
 }
 
 TEST(Config, an_unknown_key_is_named_with_those_there_are) {
@@ -109,12 +109,10 @@ TEST(Config, the_papers_preset_moves_every_object_by_its_own_pose) {
   const Config preset = loaded("[lidar_upsampling]\npreset = paper\n");
   EXPECT_EQ(preset.resample, "none");
   EXPECT_FALSE(preset.point_tracks.off_edges);
-  const ObjectMotionOptions& paper = preset.object_motion;
   EXPECT_FALSE(preset.ego_motion.fuse);
-  EXPECT_FALSE(paper.static_test || paper.drop_covered || paper.part_standing || paper.prior.any());
-  const ObjectMotionOptions ours = loaded("").object_motion;
-  EXPECT_TRUE(ours.static_test && ours.drop_covered && ours.part_standing &&
-              ours.prior.from_scans && ours.prior.from_images && ours.prior.ground);
+  EXPECT_FALSE(preset.object_motion.world_tracks || preset.object_tracks.scan_factor);
+  const TrackOptions ours = loaded("").object_tracks;
+  EXPECT_TRUE(ours.static_test && ours.scan_factor && ours.image_factor && ours.ground_factor);
 }
 
 }  // namespace

@@ -83,8 +83,8 @@ class StreetRun {
     return T_world_lidar_1.inverse() * T_object * T_world_lidar_0;
   }
 
-  /// Feeds everything; `with_poses` gives the true poses to the ego-motion, `with_next_scans` each
-  /// next scan beforehand.
+  /// Feeds everything; `with_poses` gives the true poses to the ego-motion, `with_next_scans` the
+  /// next scans beforehand.
   std::vector<VirtualScan> run(LidarUpsampler& upsampler, bool with_poses = true,
                                bool with_next_scans = false) {
     struct Event {
@@ -109,6 +109,8 @@ class StreetRun {
       for (const Stamp stamp : sim::stamps_of(100, 0, scenario.duration_s + 0.02))
         upsampler.ego_motion().add_pose({stamp, world.T_world_vehicle(sim::time_of(stamp))});
 
+    constexpr double kAhead_s = 0.35;
+    std::size_t num_expected = 0;
     std::vector<VirtualScan> virtual_scans;
     const auto take = [&](std::optional<VirtualScan> scan) {
       if (scan) virtual_scans.push_back(std::move(*scan));
@@ -120,9 +122,11 @@ class StreetRun {
                                    event.stamp < hurried_from ? Effort::full : Effort::prediction));
         continue;
       }
+      for (; with_next_scans && num_expected < scans.size() &&
+             scans[num_expected] <= shifted(event.stamp, kAhead_s);
+           ++num_expected)
+        upsampler.expect(scan_at(scans[num_expected]).scan);
       take(upsampler.insert_scan(scan_at(event.stamp).scan));
-      const auto next = std::upper_bound(scans.begin(), scans.end(), event.stamp);
-      if (with_next_scans && next != scans.end()) upsampler.expect_next(scan_at(*next).scan);
     }
     take(upsampler.flush());
     return virtual_scans;

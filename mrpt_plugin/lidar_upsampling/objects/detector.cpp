@@ -4,7 +4,6 @@
 
 #include <stdexcept>
 
-#include "lidar_upsampling/objects/cluster_detector.h"
 #include "lidar_upsampling/objects/csv_detector.h"
 #include "lidar_upsampling/objects/network_detector.h"
 
@@ -13,7 +12,7 @@ namespace lidar_upsampling {
 std::unique_ptr<Detector> make_detector(const DetectorOptions& options) {
   switch (options.type) {
     case DetectorOptions::Type::clusters:
-      return std::make_unique<ClusterDetector>(options.clusters);
+      return nullptr;
     case DetectorOptions::Type::network:
       return std::make_unique<NetworkDetector>(options.network);
     case DetectorOptions::Type::csv:

@@ -18,7 +18,6 @@ struct DetectorInput {
   const LidarScan* key_scan = nullptr;
   const SceneSegments* segments = nullptr;
   Pose T_camera_lidar = Pose::Identity();  ///< at the image's instant
-  bool next_scan_tells = false;            ///< also of objects that are too small for the picture
 };
 
 /// @brief Finds object candidates on an image, whether they move or not.
@@ -40,9 +39,7 @@ struct ClusterDetectorOptions {
       1;  ///< m, of the lowest point above the ground, if nothing hides what is below it
   double min_length = 0.3, max_length = 13;  ///< m, the longer side of the footprint
   double max_width = 3.2;                    ///< m, the shorter side
-  int min_box_size = 8;                      ///< px, either side, of what the picture may tell of
-  int min_box_size_by_scans = 4;             ///< px, where the next scan tells, too
-  double min_visible = 0.15;                 ///< share of its points that lie in the picture
+  double min_visible = 0.15;                 ///< share of its points: less is not in view
 };
 
 /// Any Darknet or ONNX model of the YOLO families (v2-v5, v8, FastestDet) that cv::dnn reads.
@@ -70,6 +67,7 @@ struct DetectorOptions {
   CsvDetectorOptions csv;
 };
 
+/// @return null for clusters, which no picture is asked for (road_users.h).
 /// @throw std::runtime_error, std::invalid_argument a missing or unreadable file, a bad setting.
 [[nodiscard]] std::unique_ptr<Detector> make_detector(const DetectorOptions& options);
 

@@ -7,8 +7,6 @@
 #include <limits>
 #include <map>
 
-#include "lidar_upsampling/objects/tracks.h"
-
 namespace lidar_upsampling {
 namespace {
 

@@ -78,6 +78,13 @@ Sight SeenSpace::at(const Eigen::Vector3f& place) const {
   return behind == beams ? Sight::seen_through : Sight::open;
 }
 
+bool SeenSpace::is_behind_something(const Eigen::Vector3f& place) const {
+  const int row = row_of(place);
+  if (row < 0) return false;
+  const Reach& cell = cells_[static_cast<std::size_t>(row) * columns_ + column_of(place)];
+  return cell.farthest > 0 && cell.nearest < place.norm() - kMargin_m;
+}
+
 float SeenSpace::reach(const Eigen::Vector3f& place) const {
   const int row = row_of(place);
   if (row < 0) return 0;

@@ -24,6 +24,9 @@ class SeenSpace {
   /// @brief Judged by the beams around; where some end before the place and some behind, it is
   /// open.
   [[nodiscard]] Sight at(const Eigen::Vector3f& place) const;
+  /// @brief Whether something nearer stands in the place's own direction, of what was measured
+  /// there.
+  [[nodiscard]] bool is_behind_something(const Eigen::Vector3f& place) const;
   /// m, that the beams went around a direction; zero where there were none.
   [[nodiscard]] float reach(const Eigen::Vector3f& place) const;
 

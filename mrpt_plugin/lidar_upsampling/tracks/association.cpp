@@ -22,6 +22,9 @@ double log_ratio(const ObjectTrack& track, const ScanObject& object, const Track
   constexpr double kSizeRatio = 0.7;  // of what two scans show of one object, in e-folds
   constexpr double kRise_m = 0.3;     // of its centroid, as other rings meet it
   constexpr double kLeast_m = 0.1;    // by which any centroid shifts: a ring more or less
+  constexpr double kCertain = 50;     // the detector's own identity outweighs all else
+  if (track.external_id >= 0 && object.external_id >= 0)
+    return track.external_id == object.external_id ? kCertain : -kCertain;
   const TrackState now =
       predicted(track.latest, shifted(scan.scan.stamp, object.time_s), options.noise);
   const double shift = kLeast_m + options.extent_error * object.length;

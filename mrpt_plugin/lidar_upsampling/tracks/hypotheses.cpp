@@ -56,6 +56,31 @@ bool is_heard(const Fits& fits, std::size_t num_found, int num_followed,
          agree >= std::min<double>(options.min_inliers, 0.5 * num_followed);
 }
 
+/// What remains of a measurement that has joined `after` from `before`, joined with another guess.
+PlanarStep joined(const PlanarStep& other, const PlanarStep& before, const PlanarStep& after) {
+  const Eigen::Matrix3d of_other = other.covariance.inverse();
+  const Eigen::Matrix3d of_before = before.covariance.inverse(),
+                        of_after = after.covariance.inverse();
+  PlanarStep result;
+  result.covariance = (of_other + of_after - of_before).inverse();
+  result.mean =
+      result.covariance * (of_other * other.mean + of_after * after.mean - of_before * before.mean);
+  return result;
+}
+
+/// The state with what the picture tells, whatever was expected of the picture.
+TrackState learnt(const TrackState& state, const Expected& expected, const MotionFit& fit,
+                  const Eigen::Matrix3d& R_rest_lidar_k) {
+  const PlanarStep common =
+      in_rest(expected.parked.mean, expected.parked.covariance, R_rest_lidar_k);
+  PlanarStep own = state.step();
+  own.covariance += common.covariance;
+  const PlanarStep before =
+      in_rest(expected.moving.mean, expected.moving.covariance, R_rest_lidar_k);
+  return updated(state, own,
+                 joined(own, before, in_rest(fit.mean, fit.covariance, R_rest_lidar_k)));
+}
+
 void hear(MotionAnswer& answer, const ImageFactor& image, const MotionQuestion& question,
           const Expected& expected, std::vector<Twist> starts, const TrackOptions& options) {
   starts.push_back(expected.moving.mean);
@@ -71,9 +96,7 @@ void hear(MotionAnswer& answer, const ImageFactor& image, const MotionQuestion& 
   answer.moving = fits.moving;
   answer.parked = fits.parked;
   answer.log_odds += fits.moving.log_evidence - fits.parked.log_evidence;
-  const Eigen::Matrix3d& R = question.R_rest_lidar_k;
-  answer.state = updated(answer.state, in_rest(expected.moving.mean, expected.moving.covariance, R),
-                         in_rest(fits.moving.mean, fits.moving.covariance, R));
+  answer.state = learnt(answer.state, expected, fits.moving, question.R_rest_lidar_k);
 }
 
 }  // namespace
@@ -107,9 +130,11 @@ MotionAnswer estimate_motion(const ObjectTrack& track, const ImageFactor& image,
                              const TrackOptions& options) {
   MotionAnswer answer;
   answer.state = predicted(track.state, question.instant, options.noise);
-  answer.log_odds = track.log_odds;
+  answer.log_odds = track.expected_log_odds();
   const double dt = seconds_between(track.stamp, question.instant);
-  Expected expected{expected_motion(answer.state, question.R_rest_lidar_k, dt, options), {}};
+  Expected expected{expected_motion(track.expected_at(question.instant, options.noise),
+                                    question.R_rest_lidar_k, dt, options),
+                    {}};
   expected.parked.covariance = common_error(question, options);
   expected.moving.covariance += expected.parked.covariance;
   answer.moving.mean = expected.moving.mean;

@@ -27,7 +27,7 @@ struct MotionAnswer {
   double log_odds = 0;   ///< of moving
   MotionFit moving;      ///< as expected, where the picture was not heard
   MotionFit parked;
-  TrackState state;  ///< at the instant, if it moves
+  TrackState state;  ///< at the instant, if it moves; without what scans to come tell
 };
 
 /// @brief The motion that a state tells, in the axes of the lidar frame at k.

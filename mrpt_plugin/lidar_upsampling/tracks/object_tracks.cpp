@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "lidar_upsampling/tracks/scan_factor.h"
 
@@ -21,9 +22,21 @@ bool is_lost(const ObjectTrack& track, Stamp now, const TrackOptions& options) {
   return state.covariance.topLeftCorner<2, 2>().trace() > 2 * widest * widest;
 }
 
+/// The end of the first passage, with what the others tell.
+TrackState smoothed_first(const std::vector<Passage>& passages, const MotionNoise& noise) {
+  TrackState arrived = passages.back().arrived;
+  for (std::size_t i = passages.size() - 1; i > 0; --i)
+    arrived = passages[i].surprised ? passages[i - 1].arrived
+                                    : with_velocity(passages[i - 1].arrived,
+                                                    smoothed(passages[i].from, arrived, noise));
+  return arrived;
+}
+
 void see_anew(ObjectTrack& track, const ScanObject& object, const TrackedScan& scan) {
+  track.ahead.reset();
   track.latest = track.state;
   track.latest_log_odds = track.log_odds;
+  track.external_id = object.external_id;
   track.class_name = object.class_name;
   track.stamp = shifted(scan.scan.stamp, object.time_s);
   track.T_rest_lidar = scan.T_rest_lidar;
@@ -64,6 +77,7 @@ std::vector<int> take_up_scan(TrackStore& store, const std::vector<ScanObject>& 
     ObjectTrack& track = tracks[track_of[i]];
     if (track_of[i] < first_new) {
       const ScanLesson lesson = learn_from_scans(track, objects[i], scan, options);
+      track.passage = Passage{lesson.from, lesson.state, lesson.surprises};
       track.state = from_here(lesson.state);
       track.log_odds = lesson.log_odds;
     } else {
@@ -73,6 +87,31 @@ std::vector<int> take_up_scan(TrackStore& store, const std::vector<ScanObject>& 
     see_anew(track, objects[i], scan);
   });
   return track_of;
+}
+
+TrackState ObjectTrack::expected_at(Stamp instant, const MotionNoise& noise) const {
+  if (!ahead) return predicted(state, instant, noise);
+  return smoothed(predicted(ahead->from, instant, noise), ahead->next, noise);
+}
+
+void look_ahead(TrackStore& store, const std::vector<ScanToCome>& to_come,
+                const TrackOptions& options) {
+  TrackStore later = store;
+  std::map<int, std::vector<Passage>> passages;  // by track id
+  std::map<int, double> log_odds;
+  for (const ScanToCome& next : to_come) {
+    for (const int i : take_up_scan(later, next.objects, next.scan, options)) {
+      const ObjectTrack& track = later.tracks[i];
+      if (track.passage) passages[track.id].push_back(*track.passage);
+      log_odds[track.id] = track.log_odds;
+    }
+  }
+  for (ObjectTrack& track : store.tracks) {
+    const auto found = passages.find(track.id);
+    if (found == passages.end()) continue;
+    track.ahead = Ahead{found->second.front().from, smoothed_first(found->second, options.noise),
+                        log_odds[track.id]};
+  }
 }
 
 }  // namespace lidar_upsampling

@@ -2,6 +2,7 @@
 // Copyright (c) 2026, the lidar_upsampling authors
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -41,24 +42,46 @@ struct TrackOptions {
 struct ScanObject {
   std::vector<int> points;  ///< indices into the scan
   std::string class_name;
+  int external_id = -1;                                ///< the detector's own identity, -1 if none
   Eigen::Vector3d centroid = Eigen::Vector3d::Zero();  ///< lidar frame
   double length = 0;                                   ///< m, of the footprint
   double time_s = 0;  ///< of its points' measurement, from the scan's stamp
 };
 
+/// From one sight of an object to the next.
+struct Passage {
+  TrackState from;         ///< at the first one, as it was taken; steps count from there
+  TrackState arrived;      ///< at the second one
+  bool surprised = false;  ///< `from` is nobody's: what was known at the first sight was wrong
+};
+
+/// What the scans to come tell of an object at its last sight.
+struct Ahead {
+  TrackState from;      ///< at that sight, as the filter has it
+  TrackState next;      ///< at the next sight, with all scans to come; its step since that sight
+  double log_odds = 0;  ///< of moving, with all scans to come
+};
+
 /// An object over time, in a frame at rest; of no camera.
 struct ObjectTrack {
   int id = -1;
+  int external_id = -1;  ///< the detector's own identity, -1 if none
   std::string class_name;
   Stamp stamp;                          ///< of its last sight in a scan
   Pose T_rest_lidar;                    ///< then
   std::vector<Eigen::Vector3f> points;  ///< lidar frame then
   Eigen::Vector3d centroid_rest = Eigen::Vector3d::Zero();
-  double size = 0;             ///< what is seen of it: points times squared range, as an area
-  TrackState state;            ///< at `stamp`
-  double log_odds = 0;         ///< of moving, at `stamp`
-  TrackState latest;           ///< with what the last image since then told
-  double latest_log_odds = 0;  ///< likewise
+  double size = 0;                 ///< what is seen of it: points times squared range, as an area
+  TrackState state;                ///< at `stamp`
+  double log_odds = 0;             ///< of moving, at `stamp`
+  TrackState latest;               ///< with what the last image since then told
+  double latest_log_odds = 0;      ///< likewise
+  std::optional<Passage> passage;  ///< from the sight before to the last one
+  std::optional<Ahead> ahead;      ///< where scans to come are known and show it
+
+  /// All that is known before the image is looked at.
+  [[nodiscard]] TrackState expected_at(Stamp instant, const MotionNoise& noise) const;
+  [[nodiscard]] double expected_log_odds() const { return ahead ? ahead->log_odds : log_odds; }
 };
 
 /// A scan, as tracks need it.
@@ -84,6 +107,17 @@ constexpr double kMostLogOdds = 8;
 /// @return the track of each object, a position in `store.tracks`.
 std::vector<int> take_up_scan(TrackStore& store, const std::vector<ScanObject>& objects,
                               const TrackedScan& scan, const TrackOptions& options);
+
+/// A scan to come, with its objects.
+struct ScanToCome {
+  const std::vector<ScanObject>& objects;
+  TrackedScan scan;
+};
+
+/// @brief What scans to come tell of the tracks: they are filtered on through these scans, and
+/// smoothed back to the next sight of each. The tracks themselves stay where they are.
+void look_ahead(TrackStore& store, const std::vector<ScanToCome>& to_come,
+                const TrackOptions& options);
 
 /// @brief The track of each object: the likeliest one-to-one assignment, where an object is a new
 /// one (-1) if no track explains it better (Bar-Shalom et al., 6.4). A track is where it is

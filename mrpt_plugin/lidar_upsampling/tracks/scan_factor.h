@@ -8,8 +8,10 @@ namespace lidar_upsampling {
 
 /// What two scans tell of an object.
 struct ScanLesson {
-  TrackState state;     ///< at the second one; its step since the first
-  double log_odds = 0;  ///< of moving
+  TrackState from;         ///< at the first one, as it was taken
+  TrackState state;        ///< at the second one; its step since the first
+  double log_odds = 0;     ///< of moving
+  bool surprises = false;  ///< what was known at the first one cannot have been: it is forgotten
 };
 
 /// @brief The object's motion since its last sight, by registration of its points (where that
@@ -18,5 +20,8 @@ struct ScanLesson {
                                           const TrackedScan& scan, const TrackOptions& options);
 
 [[nodiscard]] double prior_log_odds(const TrackOptions& options);
+
+/// Of moving, `dt` seconds after or before the instant they were known for.
+[[nodiscard]] double decayed(double log_odds, double dt, const TrackOptions& options);
 
 }  // namespace lidar_upsampling

@@ -82,6 +82,29 @@ TrackState updated(const TrackState& state, const PlanarStep& measured) {
   return result;
 }
 
+TrackState smoothed(const TrackState& state, const TrackState& later, const MotionNoise& noise) {
+  const double dt = seconds_between(state.stamp, later.stamp);
+  if (dt <= 0) return later;
+  const TrackState forward = predicted(state, later.stamp, noise);
+  const Matrix6d across = transition(state.mean, dt).by_state * state.covariance;
+  const Matrix6d K = forward.covariance.ldlt().solve(across).transpose();
+  TrackState result = state;
+  result.mean += K * (later.mean - forward.mean);
+  result.covariance += K * (later.covariance - forward.covariance) * K.transpose();
+  return result;
+}
+
+TrackState with_velocity(const TrackState& state, const TrackState& known) {
+  const Eigen::Matrix3d of_velocity = state.covariance.bottomRightCorner<3, 3>();
+  const Eigen::Matrix<double, 6, 3> K =
+      of_velocity.ldlt().solve(state.covariance.bottomRows<3>()).transpose();
+  TrackState result = state;
+  result.mean += K * (known.mean - state.mean).tail<3>();
+  result.covariance +=
+      K * (known.covariance.bottomRightCorner<3, 3>() - of_velocity) * K.transpose();
+  return result;
+}
+
 TrackState from_here(TrackState state) {
   state.mean.head<3>().setZero();
   state.covariance.topRows<3>().setZero();

@@ -52,6 +52,15 @@ struct TrackState {
 /// @brief The state given a measurement of its step (Kalman).
 [[nodiscard]] TrackState updated(const TrackState& state, const PlanarStep& measured);
 
+/// @brief The state given what is known of a later one (Rauch, Tung, Striebel, AIAA Journal 1965).
+/// @param later at its stamp, with all that is known; steps count from where `state`'s do.
+[[nodiscard]] TrackState smoothed(const TrackState& state, const TrackState& later,
+                                  const MotionNoise& noise);
+
+/// @brief The state given what is known of its velocity.
+/// @param known at the same stamp; its step is not looked at.
+[[nodiscard]] TrackState with_velocity(const TrackState& state, const TrackState& known);
+
 /// @brief The object has been seen anew: steps count from here.
 [[nodiscard]] TrackState from_here(TrackState state);
 

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the lidar_upsampling authors
+#include "lidar_upsampling/object_motions.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+
+#include "lidar_upsampling/tracks/hypotheses.h"
+#include "lidar_upsampling/tracks/picture_motion.h"
+#include "lidar_upsampling/vision/projection.h"
+
+namespace lidar_upsampling {
+namespace {
+
+// An object on a picture.
+struct Appearance {
+  const Camera* camera = nullptr;  // null: on none
+  int num_points = 0;
+  Box2d box;
+};
+
+Appearance appearance_of(const Camera& camera, const LidarScan& scan, const ObjectMotion& motion) {
+  const Pose T = T_camera_lidar_of(camera, scan.T_vehicle_lidar) * motion.T_lidar_t_lidar_k;
+  Appearance result{&camera, 0, Box2d::around_nothing()};
+  for (const int i : motion.points) {
+    const auto pixel = project(camera.model, T * scan.points[i].cast<double>());
+    if (!pixel) continue;
+    result.box.extend(pixel->x(), pixel->y());
+    ++result.num_points;
+  }
+  return result;
+}
+
+// On the picture that shows most of it, if any shows enough.
+Appearance shown(const std::vector<ImageResult>& group, const LidarScan& scan,
+                 const ObjectMotion& motion, double min_share) {
+  Appearance best;
+  for (const ImageResult& result : group) {
+    const Appearance here = appearance_of(result.camera, scan, motion);
+    if (here.num_points > best.num_points) best = here;
+  }
+  const auto enough = min_share * static_cast<double>(motion.points.size());
+  return best.num_points > 0 && best.num_points >= enough ? best : Appearance{};
+}
+
+// All that the pictures of an instant show of an object.
+struct AllSights {
+  ImageFactor image;
+  std::vector<Twist> starts{Twist::Zero()};
+  int num_followed = 0;
+  std::optional<MotionFit> alone;  // by the picture that shows most of it
+};
+
+AllSights sights_of(std::size_t object, const std::vector<ImageResult>& group, double dt) {
+  AllSights sights;
+  for (const ImageResult& result : group) {
+    if (result.objects.size() <= object) continue;
+    const ObjectOnPicture& sight = result.objects[object];
+    if (sight.seen.empty()) continue;
+    ImageView view = sight.view;
+    view.share /= dt;
+    sights.image.add(view, sight.seen);
+    sights.num_followed += sight.num_followed;
+    sights.starts.insert(sights.starts.end(), sight.starts.begin(), sight.starts.end());
+    if (sight.alone && (!sights.alone || sight.alone->num_inliers > sights.alone->num_inliers))
+      sights.alone = sight.alone;
+  }
+  return sights;
+}
+
+MotionStatus status_of(const MotionAnswer& answer, int num_found, const Config& config) {
+  if (answer.is_seen) return answer.moves ? MotionStatus::moving : MotionStatus::stationary;
+  if (answer.moves) return MotionStatus::predicted;
+  return num_found < config.object_motion.picture.min_points ? MotionStatus::too_few_points
+                                                             : MotionStatus::no_consensus;
+}
+
+// @param dt s since the object's own sight.
+ObjectMotion make_motion(const MotionAnswer& answer, const ScanObject& object,
+                         const Pose& T_lidar_t_lidar_k, double dt) {
+  const MotionFit& told = answer.moves ? answer.moving : answer.parked;
+  ObjectMotion motion;
+  motion.class_name = object.class_name;
+  motion.points = object.points;
+  motion.centroid_lidar_k = object.centroid;
+  motion.num_inliers = told.num_inliers;
+  motion.rmse_px = told.rmse_px;
+  if (answer.moves) motion.T_mov = motion_pose(answer.moving.mean, object.centroid);
+  motion.T_lidar_t_lidar_k = T_lidar_t_lidar_k * motion.T_mov;
+  motion.velocity_lidar_k = (motion.T_mov * object.centroid - object.centroid) / dt;
+  motion.yaw_rate = answer.moves ? answer.moving.mean[2] / dt : 0;
+  const Eigen::Matrix3d R = T_lidar_t_lidar_k.linear();
+  if (answer.is_seen || answer.moves)
+    motion.position_covariance = R * told.covariance.bottomRightCorner<3, 3>() * R.transpose();
+  if (answer.is_seen && !answer.moves) motion.unproven_step = R * answer.moving.mean.tail<3>();
+  return motion;
+}
+
+MotionAnswer answer_for(const ObjectTrack& track, const AllSights& sights,
+                        const MotionQuestion& question, const Config& config) {
+  if (!config.object_motion.world_tracks)
+    return answer_of_picture(track, sights.alone, question, config.object_motion.picture);
+  return estimate_motion(track, sights.image, question, sights.starts, config.object_tracks);
+}
+
+// Scans to come tell better whether it moves, and will be asked in their turn.
+void learn(ObjectTrack& track, const MotionAnswer& answer) {
+  track.latest = answer.state;
+  track.latest_log_odds = track.ahead ? track.log_odds : answer.log_odds;
+}
+
+}  // namespace
+
+std::vector<ObjectMotion> estimate_motions(const std::vector<ImageResult>& group,
+                                           const ImageResult& newest, const KeyObjects& objects,
+                                           TrackStore& store, const Config& config) {
+  constexpr double kLeast_s = 0.005;  // an image before the object's own sight is taken for this
+  const PreparedScan& key = objects.key;
+  std::vector<ObjectMotion> motions(objects.track_of.size());
+  tbb::parallel_for(std::size_t{0}, motions.size(), [&](std::size_t i) {
+    const ScanObject& object = objects.object(i);
+    ObjectTrack& track = store.tracks[objects.track_of[i]];
+    const double dt = std::max(kLeast_s, seconds_between(track.stamp, newest.instant));
+    const AllSights sights = sights_of(i, group, dt);
+    const MotionQuestion question{
+        shifted(track.stamp, dt),  newest.ego.T_to_from,   newest.ego.covariance, object.centroid,
+        key.T_rest_lidar.linear(), newest.camera.model.fx, sights.num_followed};
+    const MotionAnswer answer = answer_for(track, sights, question, config);
+    learn(track, answer);
+    ObjectMotion& motion = motions[i];
+    motion = make_motion(answer, object, newest.ego.T_to_from, dt);
+    motion.num_tracked = static_cast<int>(sights.image.observations.size());
+    motion.status = status_of(answer, motion.num_tracked, config);
+    motion.track_id = track.id;
+    const Appearance on_picture =
+        shown(group, key.scan, motion, config.detector.clusters.min_visible);
+    if (on_picture.camera == nullptr) return;
+    motion.camera_label = on_picture.camera->label;
+    motion.box = on_picture.box;
+  });
+  return motions;
+}
+
+}  // namespace lidar_upsampling

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the lidar_upsampling authors
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "lidar_upsampling/objects/scene_segments.h"
+#include "lidar_upsampling/registration/seen_space.h"
+#include "lidar_upsampling/scan/resample.h"
+#include "lidar_upsampling/se3.h"
+#include "lidar_upsampling/tracks/object_tracks.h"
+
+namespace lidar_upsampling {
+
+/// How the vehicle goes on.
+struct SteadyMotion {
+  Twist rate = Twist::Zero();  ///< per second, lidar frame
+  bool is_measured = false;    ///< between two scans; else hoped for, or from a picture
+};
+
+/// A real scan and what is known of it, the same whether it is the last one, the key scan or to
+/// come.
+struct PreparedScan {
+  LidarScan scan;                               ///< all points at its stamp
+  Pose T_rest_lidar = Pose::Identity();         ///< frame at rest: the first scan's
+  Pose T_scan_before = Pose::Identity();        ///< ego-motion since the scan before
+  Matrix6d step_covariance = Matrix6d::Zero();  ///< of it, a left increment
+  SteadyMotion motion;                          ///< as since the scan before
+  Stamp stamp_before;
+  SceneSegments segments;                              ///< ground and clusters
+  std::shared_ptr<const SeenSpace> seen, seen_before;  ///< free space: by it, by the scan before
+  std::unique_ptr<const BeamResampler> resampler;  ///< where virtual scans are to lie on the beams
+  std::vector<ScanObject> objects;                 ///< candidates
+
+  [[nodiscard]] TrackedScan tracked() const {
+    return {scan, T_rest_lidar, step_covariance, *seen, seen_before.get(), stamp_before};
+  }
+};
+
+}  // namespace lidar_upsampling

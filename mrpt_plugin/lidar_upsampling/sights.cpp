@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the lidar_upsampling authors
+#include "lidar_upsampling/sights.h"
+
+#include <tbb/parallel_for.h>
+#include <tbb/parallel_invoke.h>
+
+#include <algorithm>
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+
+#include "lidar_upsampling/objects/anchored_scan.h"
+#include "lidar_upsampling/tracks/picture_motion.h"
+#include "lidar_upsampling/view_points.h"
+#include "lidar_upsampling/view_ways.h"
+
+namespace lidar_upsampling {
+namespace {
+
+// What is to be followed of an object; its points lie on the anchor where it was by then.
+FollowedObject followed_object(const ScanObject& object, const ObjectTrack& track,
+                               const Eigen::Matrix3d& R_rest_lidar_k) {
+  FollowedObject followed{object.points, object.centroid, object.time_s, Twist::Zero()};
+  if (track.expected_log_odds() <= 0) return followed;
+  const TrackState state = track.expected_at(track.stamp, {});
+  const Eigen::Vector2d velocity = level_axes(R_rest_lidar_k).transpose() * state.velocity();
+  followed.rate[2] = state.mean[5];
+  // About the object's centroid, as a twist about the lidar.
+  followed.rate.tail<3>() = Eigen::Vector3d(velocity.x(), velocity.y(), 0) -
+                            Eigen::Vector3d(followed.rate.head<3>()).cross(object.centroid);
+  return followed;
+}
+
+// The motion over ground of what keeps its place before the vehicle.
+Twist motion_with_us(const Pose& T_lidar_t_lidar_k, const Eigen::Vector3d& centroid) {
+  Twist motion = Twist::Zero();
+  motion.segment<2>(3) = (T_lidar_t_lidar_k.inverse() * centroid - centroid).head<2>();
+  return motion;
+}
+
+// Ways from which an object's points may be found on the next picture: as expected, parked, and
+// with us, the likeliest first; those that lead to the same pixels count once.
+std::vector<Twist> motions_to_try(bool moves, const Twist& expected, const Twist& with_us,
+                                  double near_m) {
+  const Twist parked = Twist::Zero();
+  std::vector<Twist> motions;
+  for (const Twist& motion : {moves ? expected : parked, moves ? parked : expected, with_us})
+    if (std::none_of(motions.begin(), motions.end(), [&](const Twist& other) {
+          return (other - motion).tail<3>().norm() < near_m;
+        }))
+      motions.push_back(motion);
+  return motions;
+}
+
+// Whether one of the expected motions explains most of the points.
+bool is_explained(const std::vector<Observation>& seen, const Pose& T_camera_lidar_k,
+                  const Eigen::Vector3d& centroid, const std::vector<Twist>& starts,
+                  double near_px) {
+  constexpr double kMost = 0.5;
+  return std::any_of(starts.begin(), starts.end(), [&](const Twist& start) {
+    const Pose T = T_camera_lidar_k * motion_pose(start, centroid);
+    const auto near = std::count_if(seen.begin(), seen.end(), [&](const Observation& observation) {
+      return sq_reprojection_error(observation, T) < near_px * near_px;
+    });
+    return static_cast<double>(near) >= kMost * static_cast<double>(seen.size());
+  });
+}
+
+// Where to look for an object, and by which motions over ground.
+Ways ways_of(const ObjectTrack& track, const ScanObject& object, const Eigen::Matrix3d& R_rest_k,
+             Stamp instant, const Pose& ego, double focal_px, const Config& config,
+             std::vector<Twist>& motions) {
+  constexpr double kSigmas = 2.5;  // of where it may be
+  constexpr double kSamePatch = 0.3;
+  const TrackOptions& options = config.object_tracks;
+  const double patch_m = config.klt.window_px * std::max(1., object.centroid.norm()) / focal_px;
+  const TrackState now = track.ahead ? track.expected_at(instant, options.noise)
+                                     : predicted(track.latest, instant, options.noise);
+  const double log_odds = track.ahead ? track.ahead->log_odds : track.latest_log_odds;
+  motions = motions_to_try(log_odds > 0 || !config.object_motion.world_tracks,
+                           expected_motion(now, R_rest_k, 0, options).mean,
+                           motion_with_us(ego, object.centroid), kSamePatch * patch_m);
+  if (!config.object_motion.world_tracks) motions.resize(1);
+  Ways ways;
+  for (const Twist& motion : motions) ways.T_mov.push_back(motion_pose(motion, object.centroid));
+  const double reach = kSigmas * std::sqrt(0.5 * now.covariance.topLeftCorner<2, 2>().trace());
+  if (reach > patch_m && config.object_motion.world_tracks) ways.reach_m = reach;
+  return ways;
+}
+
+}  // namespace
+
+Pose T_camera_lidar_of(const Camera& camera, const Pose& T_vehicle_lidar) {
+  return camera.T_vehicle_camera.inverse() * T_vehicle_lidar;
+}
+
+void start_view(CameraView& view, const std::shared_ptr<const Picture>& anchor,
+                const KeyObjects& objects, const EgoStep& ego, const Config& config) {
+  const LidarScan& scan = objects.key.scan;
+  const Pose T_camera_lidar_a =
+      T_camera_lidar_of(view.camera, scan.T_vehicle_lidar) * ego.T_to_from;
+  AnchoredScan anchored;
+  cv::Mat texture;
+  tbb::parallel_invoke([&] { anchored = anchor_scan(scan, view.camera.model, T_camera_lidar_a); },
+                       [&] { cv::cornerMinEigenVal(anchor->image.gray, texture, 5); });
+  view.objects.clear();
+  for (std::size_t i = 0; i < objects.track_of.size(); ++i)
+    view.objects.push_back(
+        followed_object(objects.object(i), objects.track(i), objects.key.T_rest_lidar.linear()));
+  view.anchor_dt = seconds_between(scan.stamp, anchor->instant);
+  if (std::abs(view.anchor_dt) * 1e3 <= config.timing.pair_tolerance_ms) view.anchor_dt = 0;
+  view.points = {};
+  view.sampling = anchored.sampling;
+  choose_points(view, anchored, texture, scan, T_camera_lidar_a, !ego.covariance.isZero(0), config);
+  view.anchor = anchor;
+}
+
+std::vector<ObjectOnPicture> follow_objects(CameraView& view, const Picture& picture,
+                                            const KeyObjects& objects, const Pose& ego,
+                                            const Config& config) {
+  const PreparedScan& key = objects.key;
+  const std::size_t count = objects.track_of.size();
+  std::vector<ObjectOnPicture> sights(count);
+  std::vector<Ways> ways(count);
+  for (std::size_t i = 0; i < count; ++i)
+    ways[i] = ways_of(objects.track(i), objects.object(i), key.T_rest_lidar.linear(),
+                      picture.instant, ego, view.camera.model.fx, config, sights[i].starts);
+  follow_ways(view, picture, T_camera_lidar_of(view.camera, key.scan.T_vehicle_lidar) * ego, ways,
+              config.klt);
+  for (std::size_t i = 0; i < count; ++i)
+    for (std::size_t j = sights[i].starts.size(); j < ways[i].T_mov.size(); ++j) {
+      const Eigen::Vector3d& centroid = objects.object(i).centroid;
+      sights[i].starts.emplace_back(Twist::Zero());
+      sights[i].starts.back().tail<3>() = ways[i].T_mov[j] * centroid - centroid;
+    }
+  return sights;
+}
+
+void note_sights(std::vector<ObjectOnPicture>& sights, const CameraView& view,
+                 const Picture& picture, const KeyObjects& objects, const Pose& ego,
+                 const Config& config) {
+  const LidarScan& scan = objects.key.scan;
+  const PictureMotionOptions& options = config.object_motion.picture;
+  const Pose T_camera_lidar_k = T_camera_lidar_of(view.camera, scan.T_vehicle_lidar) * ego;
+  const double dt = seconds_between(scan.stamp, picture.instant);
+  for (const int owner : view.points.owner)
+    if (owner >= 0) ++sights[owner].num_followed;
+  tbb::parallel_for(std::size_t{0}, sights.size(), [&](std::size_t i) {
+    ObjectOnPicture& sight = sights[i];
+    if (sight.num_followed == 0) return;
+    const FollowedObject& object = view.objects[i];
+    const auto pairs = correspondences_of(view.points, static_cast<int>(i));
+    sight.seen = observe(pairs, view.camera.model);
+    const double until_anchor = view.anchor_dt == 0 ? 0 : view.anchor_dt - object.time_s;
+    sight.view = {T_camera_lidar_k, dt - object.time_s - until_anchor,
+                  exp_se3(Twist(object.rate * until_anchor)) * object.centroid - object.centroid};
+    if (config.object_motion.world_tracks &&
+        is_explained(sight.seen, T_camera_lidar_k, object.centroid, sight.starts,
+                     options.pose.first_gate_px))
+      return;
+    sight.alone =
+        picture_motion(pairs, view.camera.model, T_camera_lidar_k, object.centroid, options);
+    if (sight.alone) sight.starts.push_back(sight.alone->mean);
+  });
+}
+
+}  // namespace lidar_upsampling

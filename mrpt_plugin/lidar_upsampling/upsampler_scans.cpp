@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the lidar_upsampling authors
+// Real scans, as LidarUpsampler takes them up.
+#include <utility>
+
+#include "lidar_upsampling/camera_view.h"
+#include "lidar_upsampling/objects/beam_step.h"
+#include "lidar_upsampling/prepared_scan.h"
+#include "lidar_upsampling/scan/sweep.h"
+#include "lidar_upsampling/scan_objects.h"
+#include "lidar_upsampling/se3.h"
+#include "lidar_upsampling/stopwatch.h"
+#include "lidar_upsampling/upsampler.h"
+
+namespace lidar_upsampling {
+
+double LidarUpsampler::turn_s() const {
+  if (config_.sweep.period_ms > 0) return 1e-3 * config_.sweep.period_ms;
+  double shortest_s = scan_period_s_;
+  for (std::size_t i = 1; i < expected_scans_.size(); ++i) {
+    const double between_s = seconds_between(expected_scans_[i - 1], expected_scans_[i]);
+    if (between_s > 0 && (shortest_s <= 0 || between_s < shortest_s)) shortest_s = between_s;
+  }
+  return shortest_s;
+}
+
+void LidarUpsampler::straighten(LidarScan& scan, const std::vector<float>& times,
+                                const Twist& rate) const {
+  deskew(scan, times, [&](double time) {
+    const auto step = ego_motion_.step(shifted(scan.stamp, time), scan.stamp);
+    return step ? between_sensors(step->T_to_from, scan.T_vehicle_lidar)
+                : exp_se3(Twist(-time * rate));
+  });
+}
+
+std::unique_ptr<PreparedScan> LidarUpsampler::prepared(LidarScan scan, const PreparedScan* before) {
+  auto result = std::make_unique<PreparedScan>();
+  const std::vector<float> times = point_times(scan, config_.sweep, turn_s());
+  const auto as_measured = times.empty() ? std::vector<Eigen::Vector3f>{} : scan.points;
+  straighten(scan, times, before != nullptr ? before->motion.rate : Twist(Twist::Zero()));
+  result->scan = std::move(scan);
+  if (before != nullptr) {
+    step_between_scans(*before, *result);
+    if (!times.empty() && result->motion.is_measured &&
+        !given_step(before->scan, result->scan.stamp)) {
+      result->scan.points = as_measured;  // once more, by the rate that it showed itself
+      straighten(result->scan, times, result->motion.rate);
+    }
+    result->T_rest_lidar = before->T_rest_lidar * result->T_scan_before.inverse();
+    result->seen_before = before->seen;
+    result->stamp_before = before->scan.stamp;
+  }
+  {
+    const Stopwatch watch(timing_, "ground and clusters");
+    result->segments = segment_scan(result->scan, config_.segments);
+  }
+  {
+    const Stopwatch watch(timing_, "seen space");
+    result->seen =
+        std::make_shared<const SeenSpace>(result->scan.points, result->segments.vertical_step_deg);
+  }
+  if (config_.resample == "beam") {
+    const Stopwatch watch(timing_, "beams");
+    result->resampler = std::make_unique<const BeamResampler>(result->scan, config_.resampling);
+  }
+  const Stopwatch watch(timing_, "candidates");
+  result->objects = objects_of_clusters(result->scan, result->segments, config_);
+  return result;
+}
+
+void LidarUpsampler::expect(LidarScan scan) {
+  const PreparedScan* before = to_come_.empty() ? key_.get() : to_come_.back().get();
+  if (before != nullptr && scan.stamp <= before->scan.stamp) return;
+  to_come_.push_back(prepared(std::move(scan), before));
+}
+
+// A detector's boxes take the place of the clusters, on the picture that shows the scan.
+void LidarUpsampler::take_up(const Picture* anchor) {
+  const Stopwatch watch(timing_, "tracks");
+  if (detector_ && anchor != nullptr) {
+    const Pose T_camera_lidar =
+        T_camera_lidar_of(anchor->image.camera, key_->scan.T_vehicle_lidar) *
+        ego_step(anchor->instant).T_to_from;
+    key_->objects = objects_of_boxes(key_->scan, key_->segments, anchor->image, T_camera_lidar,
+                                     *detector_, config_);
+  }
+  track_of_ = take_up_scan(store_, key_->objects, key_->tracked(), config_.object_tracks);
+  is_taken_up_ = true;
+  std::vector<ScanToCome> to_come;
+  for (const auto& next : to_come_) to_come.push_back({next->objects, next->tracked()});
+  if (!to_come.empty()) look_ahead(store_, to_come, config_.object_tracks);
+}
+
+}  // namespace lidar_upsampling

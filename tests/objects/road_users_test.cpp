@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the lidar_upsampling authors
+#include "lidar_upsampling/objects/road_users.h"
+
+#include <gtest/gtest.h>
+
+#include "lidar_upsampling/objects/scene_segments.h"
+#include "lidar_upsampling/units.h"
+#include "street_scan.h"
+
+namespace lidar_upsampling {
+namespace {
+
+using testing::BoxObject;
+using testing::ray_to_box;
+
+constexpr double kGroundBelow_m = 1.2, kHalfView_deg = 28;
+
+// What a depth camera that looks ahead sees of a box on flat ground.
+LidarScan depth_scan_of(const BoxObject& box) {
+  LidarScan scan;
+  scan.num_rings = 120;
+  scan.num_columns = 280;
+  for (int ring = 0; ring < scan.num_rings; ++ring)
+    for (int column = 0; column < scan.num_columns; ++column) {
+      const double azimuth = kHalfView_deg * (1 - 2 * (column + 0.5) / scan.num_columns) * kDegree;
+      const double up = (20 - 40. * ring / scan.num_rings) * kDegree;
+      const Eigen::Vector3d ray(std::cos(azimuth), std::sin(azimuth), std::tan(up));
+      const double to_ground = up < 0 ? -kGroundBelow_m / ray.z() : 1e9;
+      const double range = std::min(ray_to_box(ray, box), to_ground);
+      if (range > 14) continue;
+      scan.points.push_back((range * ray).cast<float>());
+      scan.ring.push_back(static_cast<std::uint16_t>(ring));
+      scan.column.push_back(static_cast<std::uint16_t>(column));
+    }
+  return scan;
+}
+
+std::size_t num_found(const LidarScan& scan) {
+  return road_user_clusters(scan, segment_scan(scan), {}).size();
+}
+
+BoxObject box_at(double x, double y, double length) {
+  return {{x, y, -kGroundBelow_m}, length, 1.6, 1.4, 0};
+}
+
+TEST(RoadUsers, a_car_in_view_is_an_object) {
+  EXPECT_EQ(num_found(depth_scan_of(box_at(7, 0, 4))), 1U);
+}
+
+TEST(RoadUsers, what_the_view_cuts_off_may_be_a_car_however_little_is_seen) {
+  // The front of a car that comes in from the right: its side ends where the view does.
+  const double edge_x = 3.5 / std::tan(kHalfView_deg * kDegree);
+  const LidarScan scan = depth_scan_of({{edge_x - 1.8, -4.3, -kGroundBelow_m}, 4, 1.6, 1.4, 0});
+  EXPECT_EQ(num_found(scan), 1U);
+}
+
+TEST(RoadUsers, as_little_of_a_thing_in_the_midst_of_the_view_is_a_post) {
+  EXPECT_EQ(num_found(depth_scan_of({{7, 0, -kGroundBelow_m}, 0.2, 0.2, 1.4, 0})), 0U);
+}
+
+}  // namespace
+}  // namespace lidar_upsampling
