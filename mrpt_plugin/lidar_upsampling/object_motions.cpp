@@ -106,6 +106,7 @@ MotionAnswer answer_for(const ObjectTrack& track, const AllSights& sights,
 
 // Scans to come tell better whether it moves, and will be asked in their turn.
 void learn(ObjectTrack& track, const MotionAnswer& answer) {
+  if (!answer.is_seen) return;
   track.latest = answer.state;
   track.latest_log_odds = track.ahead ? track.log_odds : answer.log_odds;
 }

@@ -235,6 +235,8 @@ void visit_tracks(Config& c, SettingVisitor& v) {
            "log-odds of moving decay to the prior's within this");
   v.number("unknown_speed_sigma_m_s", t.noise.unknown_speed_sigma, kPositive,
            "per axis, of an object seen for the first time");
+  v.number("aside_speed_sigma_m_s", t.noise.aside_speed_sigma, kPositive,
+           "across our own heading, of one that goes our road, as half of them do");
   v.number("unknown_yaw_rate_sigma_rad_s", t.noise.unknown_yaw_rate_sigma, kPositive, "likewise");
   v.number("acceleration_m2_s3", t.noise.acceleration, kPositive,
            "white noise by which velocities change: variance per second");
@@ -242,7 +244,8 @@ void visit_tracks(Config& c, SettingVisitor& v) {
   v.number("birth_density_per_m2", t.birth_density, kPositive, "new objects from scan to scan");
   v.number("extent_error", t.extent_error, kPositive,
            "share of its length by which what is seen of an object shifts");
-  v.number("outlier_share", t.outlier_share, kProbability, "of registrations that are wrong");
+  v.number("outlier_share", t.outlier_share, kProbability,
+           "of registrations, and of pictures, that are wrong");
   v.number("outlier_density_per_m2", t.outlier_density, kPositive, "of where these lead");
   v.number("common_error_px", t.common_error_px, kPositive,
            "what ego-motion and calibration may be wrong on the picture");

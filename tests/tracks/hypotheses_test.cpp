@@ -100,6 +100,27 @@ TEST(Hypotheses, what_may_as_well_be_parked_stays_where_no_camera_sees_it) {
   EXPECT_FALSE(estimate_motion(known_track(10, 0), {}, question_after(0.1), {}, {}).moves);
 }
 
+TEST(Hypotheses, one_picture_does_not_move_what_scans_have_shown_to_stand) {
+  ObjectTrack track = new_track();
+  const Twist wrong_way = to_the_side(0.5);
+  const auto odds = [&] {
+    return estimate_motion(track, picture_of(wrong_way), question_after(0.1), {wrong_way}, {});
+  };
+  EXPECT_TRUE(odds().moves);
+  track.log_odds = -4;
+  EXPECT_FALSE(odds().moves);
+}
+
+TEST(Hypotheses, what_may_go_our_road_is_not_held_for_parked_where_the_picture_cannot_tell) {
+  const double dt = 0.03;
+  const ImageFactor image = picture_of(Twist::Zero());
+  ObjectTrack track = new_track();
+  track.log_odds = 12;
+  const double anywhere = estimate_motion(track, image, question_after(dt), {}, {}).log_odds;
+  track.on_road = along_road(track.state, 0, {});
+  EXPECT_GT(estimate_motion(track, image, question_after(dt), {}, {}).log_odds, anywhere + 0.5);
+}
+
 TEST(Hypotheses, points_that_agree_on_nothing_are_not_heard) {
   ImageFactor image = picture_of(Twist::Zero());
   std::mt19937 random(2);

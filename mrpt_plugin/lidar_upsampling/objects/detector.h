@@ -33,7 +33,7 @@ class Detector {
 /// Road users by the size of their visible points; an object seen from behind is short.
 struct ClusterDetectorOptions {
   int min_points = 10;
-  double min_range = 1, max_range = 70;     ///< m, horizontal, of the centroid
+  double min_range = 1, max_range = 120;    ///< m, horizontal, of the centroid
   double min_height = 0.5, max_height = 4;  ///< m, of the highest point above the ground
   double max_bottom =
       1;  ///< m, of the lowest point above the ground, if nothing hides what is below it

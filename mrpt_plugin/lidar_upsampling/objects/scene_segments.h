@@ -15,7 +15,7 @@ namespace lidar_upsampling {
 struct SegmentOptions {
   GroundOptions ground;
   ClusterOptions clusters;  ///< the angles between beams are taken from the scan
-  double max_range = 80;    ///< m, farther points are left alone
+  double max_range = 120;   ///< m, farther points are left alone
   double max_height = 4;    ///< m above the ground, higher ones too
 };
 

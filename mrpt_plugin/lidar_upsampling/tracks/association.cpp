@@ -25,16 +25,20 @@ double log_ratio(const ObjectTrack& track, const ScanObject& object, const Track
   constexpr double kCertain = 50;     // the detector's own identity outweighs all else
   if (track.external_id >= 0 && object.external_id >= 0)
     return track.external_id == object.external_id ? kCertain : -kCertain;
-  const TrackState now =
-      predicted(track.latest, shifted(scan.scan.stamp, object.time_s), options.noise);
+  const Stamp instant = shifted(scan.scan.stamp, object.time_s);
   const double shift = kLeast_m + options.extent_error * object.length;
   const Eigen::Matrix2d parked =
       shift * shift * Eigen::Matrix2d::Identity() + ego_error(scan, object.centroid);
   const Eigen::Vector3d step = scan.T_rest_lidar * object.centroid - track.centroid_rest;
   const double is_moving = 1 / (1 + std::exp(-track.latest_log_odds));
-  const double here = is_moving * density(step.head<2>() - now.mean.head<2>(),
-                                          parked + now.covariance.topLeftCorner<2, 2>()) +
-                      (1 - is_moving) * density(step.head<2>(), parked);
+  const auto moving = [&](const TrackState& state) {
+    const TrackState now = predicted(state, instant, options.noise);
+    return density(step.head<2>() - now.mean.head<2>(),
+                   parked + now.covariance.topLeftCorner<2, 2>());
+  };
+  double if_moving = moving(track.latest);
+  if (const TrackState* other = track.other_latest()) if_moving = (if_moving + moving(*other)) / 2;
+  const double here = is_moving * if_moving + (1 - is_moving) * density(step.head<2>(), parked);
   const double size = static_cast<double>(object.points.size()) * object.centroid.squaredNorm();
   return std::log(here / options.birth_density) -
          0.5 * std::pow(std::log(size / track.size) / kSizeRatio, 2) -

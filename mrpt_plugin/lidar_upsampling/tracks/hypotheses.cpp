@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lidar_upsampling/tracks/scan_factor.h"
 #include "lidar_upsampling/units.h"
 
 namespace lidar_upsampling {
@@ -33,9 +34,9 @@ PlanarStep in_rest(const Twist& mean, const Matrix6d& covariance,
   return {pick * mean, pick * covariance * pick.transpose()};
 }
 
-/// What either hypothesis expects.
+/// What either hypothesis expects, and who knows nothing.
 struct Expected {
-  MotionExpected moving, parked;
+  MotionExpected moving, parked, any;
 };
 
 struct Fits {
@@ -81,6 +82,14 @@ TrackState learnt(const TrackState& state, const Expected& expected, const Motio
                  joined(own, before, in_rest(fit.mean, fit.covariance, R_rest_lidar_k)));
 }
 
+/// Of the picture, unless its points were found at wrong places, where they fit as well as ones of
+/// which nothing is expected: `log_of_any`.
+double log_likelihood(double log_evidence, double log_of_any, const TrackOptions& options) {
+  const double most = std::max(log_evidence, log_of_any);
+  return most + std::log((1 - options.outlier_share) * std::exp(log_evidence - most) +
+                         options.outlier_share * std::exp(log_of_any - most));
+}
+
 void hear(MotionAnswer& answer, const ImageFactor& image, const MotionQuestion& question,
           const Expected& expected, std::vector<Twist> starts, const TrackOptions& options) {
   starts.push_back(expected.moving.mean);
@@ -95,8 +104,39 @@ void hear(MotionAnswer& answer, const ImageFactor& image, const MotionQuestion& 
   answer.is_seen = true;
   answer.moving = fits.moving;
   answer.parked = fits.parked;
-  answer.log_odds += fits.moving.log_evidence - fits.parked.log_evidence;
+  const double of_any = fit_motion(image, question.centroid, expected.any, {fits.moving.mean},
+                                   sigma_px, options.points)
+                            .log_evidence;
+  answer.log_odds += log_likelihood(fits.moving.log_evidence, of_any, options) -
+                     log_likelihood(fits.parked.log_evidence, of_any, options);
   answer.state = learnt(answer.state, expected, fits.moving, question.R_rest_lidar_k);
+}
+
+// How it may move, at the instant.
+struct States {
+  TrackState any;       // who knows nothing
+  TrackState state;     // as the filter has it
+  TrackState expected;  // with scans to come
+};
+
+MotionAnswer answer_from(const States& states, double log_odds, const ImageFactor& image,
+                         const MotionQuestion& question, const std::vector<Twist>& starts,
+                         double dt, const TrackOptions& options) {
+  const auto motion = [&](const TrackState& state) {
+    return expected_motion(state, question.R_rest_lidar_k, dt, options);
+  };
+  Expected expected{motion(states.expected), {}, motion(states.any)};
+  expected.parked.covariance = common_error(question, options);
+  expected.moving.covariance += expected.parked.covariance;
+  expected.any.covariance += expected.parked.covariance;
+  MotionAnswer answer;
+  answer.state = states.state;
+  answer.log_odds = log_odds;
+  answer.moving.mean = expected.moving.mean;
+  answer.moving.covariance = expected.moving.covariance;
+  answer.parked.covariance = expected.parked.covariance;
+  if (!image.observations.empty()) hear(answer, image, question, expected, starts, options);
+  return answer;
 }
 
 }  // namespace
@@ -128,19 +168,24 @@ MotionExpected expected_motion(const TrackState& at_instant, const Eigen::Matrix
 MotionAnswer estimate_motion(const ObjectTrack& track, const ImageFactor& image,
                              const MotionQuestion& question, const std::vector<Twist>& starts,
                              const TrackOptions& options) {
-  MotionAnswer answer;
-  answer.state = predicted(track.state, question.instant, options.noise);
-  answer.log_odds = track.expected_log_odds();
+  const auto at_instant = [&](const TrackState& state) {
+    return predicted(state, question.instant, options.noise);
+  };
   const double dt = seconds_between(track.stamp, question.instant);
-  Expected expected{expected_motion(track.expected_at(question.instant, options.noise),
-                                    question.R_rest_lidar_k, dt, options),
-                    {}};
-  expected.parked.covariance = common_error(question, options);
-  expected.moving.covariance += expected.parked.covariance;
-  answer.moving.mean = expected.moving.mean;
-  answer.moving.covariance = expected.moving.covariance;
-  answer.parked.covariance = expected.parked.covariance;
-  if (!image.observations.empty()) hear(answer, image, question, expected, starts, options);
+  const auto answer_if = [&](const TrackState& state, const TrackState& expected) {
+    return answer_from({at_instant(new_track_state(track.stamp, options.noise)), state, expected},
+                       track.expected_log_odds(), image, question, starts, dt, options);
+  };
+  const TrackState state = at_instant(track.state);
+  MotionAnswer answer =
+      answer_if(state, track.ahead ? track.expected_at(question.instant, options.noise) : state);
+  if (answer.is_seen && track.on_road && !track.ahead) {
+    const TrackState on_road = at_instant(*track.on_road);
+    const MotionAnswer other = answer_if(on_road, on_road);
+    const double log_odds = log_mean(answer.log_odds, other.log_odds);
+    if (other.log_odds > answer.log_odds) answer = other;
+    answer.log_odds = log_odds;
+  }
   answer.moves = options.static_test ? answer.log_odds > std::log(options.loss_ratio)
                                      : answer.is_seen || answer.log_odds > 0;
   answer.log_odds = std::clamp(answer.log_odds, -kMostLogOdds, kMostLogOdds);

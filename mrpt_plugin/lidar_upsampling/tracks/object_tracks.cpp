@@ -32,6 +32,11 @@ TrackState smoothed_first(const std::vector<Passage>& passages, const MotionNois
   return arrived;
 }
 
+double heading_of(const TrackedScan& scan) {
+  const Pose T_rest_vehicle = scan.T_rest_lidar * scan.scan.T_vehicle_lidar.inverse();
+  return std::atan2(T_rest_vehicle(1, 0), T_rest_vehicle(0, 0));
+}
+
 void see_anew(ObjectTrack& track, const ScanObject& object, const TrackedScan& scan) {
   track.ahead.reset();
   track.latest = track.state;
@@ -79,9 +84,11 @@ std::vector<int> take_up_scan(TrackStore& store, const std::vector<ScanObject>& 
       const ScanLesson lesson = learn_from_scans(track, objects[i], scan, options);
       track.passage = Passage{lesson.from, lesson.state, lesson.surprises};
       track.state = from_here(lesson.state);
+      track.on_road.reset();
       track.log_odds = lesson.log_odds;
     } else {
       track.state = new_track_state(shifted(scan.scan.stamp, objects[i].time_s), options.noise);
+      track.on_road = along_road(track.state, heading_of(scan), options.noise);
       track.log_odds = prior_log_odds(options);
     }
     see_anew(track, objects[i], scan);

@@ -27,7 +27,7 @@ struct TrackOptions {
   double memory_s = 2;     ///< log-odds of moving decay to the prior's within this
   double birth_density = 2e-4;    ///< new objects per m^2 of the scene, from scan to scan
   double extent_error = 0.1;      ///< share of its length by which what is seen of an object shifts
-  double outlier_share = 0.05;    ///< of registrations that are wrong
+  double outlier_share = 0.02;    ///< of registrations, and of pictures, that are wrong
   double outlier_density = 0.01;  ///< per m^2, of where these lead
   double common_error_px = 0.35;  ///< what ego-motion and calibration may be wrong on the picture
   int min_inliers = 6;            ///< fewer followed points that agree are no evidence, nor...
@@ -71,16 +71,21 @@ struct ObjectTrack {
   Pose T_rest_lidar;                    ///< then
   std::vector<Eigen::Vector3f> points;  ///< lidar frame then
   Eigen::Vector3d centroid_rest = Eigen::Vector3d::Zero();
-  double size = 0;                 ///< what is seen of it: points times squared range, as an area
-  TrackState state;                ///< at `stamp`
-  double log_odds = 0;             ///< of moving, at `stamp`
-  TrackState latest;               ///< with what the last image since then told
-  double latest_log_odds = 0;      ///< likewise
-  std::optional<Passage> passage;  ///< from the sight before to the last one
-  std::optional<Ahead> ahead;      ///< where scans to come are known and show it
+  double size = 0;             ///< what is seen of it: points times squared range, as an area
+  TrackState state;            ///< at `stamp`
+  double log_odds = 0;         ///< of moving, at `stamp`
+  TrackState latest;           ///< with what the last image since then told
+  double latest_log_odds = 0;  ///< likewise
+  std::optional<TrackState> on_road;  ///< of a new one, likewise at `stamp`: if it goes our road
+  std::optional<Passage> passage;     ///< from the sight before to the last one
+  std::optional<Ahead> ahead;         ///< where scans to come are known and show it
 
   /// All that is known before the image is looked at.
   [[nodiscard]] TrackState expected_at(Stamp instant, const MotionNoise& noise) const;
+  /// What else may be expected of `latest`, as long as nothing has told.
+  [[nodiscard]] const TrackState* other_latest() const {
+    return on_road && latest.stamp == stamp ? &*on_road : nullptr;
+  }
   [[nodiscard]] double expected_log_odds() const { return ahead ? ahead->log_odds : log_odds; }
 };
 

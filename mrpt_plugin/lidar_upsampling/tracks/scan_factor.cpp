@@ -100,7 +100,17 @@ double log_likelihood(const Eigen::Vector2d& astray, const Eigen::Matrix2d& cova
                   options.outlier_share * options.outlier_density);
 }
 
+double log_likelihood_of(const Eigen::Vector2d& step, const Eigen::Matrix2d& error,
+                         const TrackState& expected, const TrackOptions& options) {
+  return log_likelihood(step - expected.mean.head<2>(),
+                        expected.covariance.topLeftCorner<2, 2>() + error, options);
+}
+
 }  // namespace
+
+double log_mean(double a, double b) {
+  return std::max(a, b) + std::log(0.5 * (1 + std::exp(-std::abs(a - b))));
+}
 
 double prior_log_odds(const TrackOptions& options) {
   return std::log(options.moving_prior / (1 - options.moving_prior));
@@ -134,12 +144,20 @@ ScanLesson learn_from_scans(const ObjectTrack& track, const ScanObject& object,
   // Ego-motion's error moves all that is measured from one scan to the other.
   step.covariance.topLeftCorner<2, 2>() += ego_error(scan, object.centroid);
   const Eigen::Matrix2d R = step.covariance.topLeftCorner<2, 2>();
-  const Eigen::Matrix2d S = expected.covariance.topLeftCorner<2, 2>() + R;
-  const Eigen::Vector2d d = step.mean.head<2>(), astray = d - expected.mean.head<2>();
+  const Eigen::Vector2d d = step.mean.head<2>();
+  double if_moving = log_likelihood_of(d, R, lesson.state, options);
+  if (const TrackState* other = track.other_latest()) {
+    const TrackState on_road = predicted(*other, instant, options.noise);
+    const double if_on_road = log_likelihood_of(d, R, on_road, options);
+    if (if_on_road > if_moving) lesson.from = *other;
+    if (if_on_road > if_moving) lesson.state = on_road;
+    if_moving = log_mean(if_moving, if_on_road);
+  }
   lesson.log_odds +=
-      log_likelihood(astray, S, options) -
-      log_likelihood(d, R + kCreep_m * kCreep_m * Eigen::Matrix2d::Identity(), options);
+      if_moving - log_likelihood(d, R + kCreep_m * kCreep_m * Eigen::Matrix2d::Identity(), options);
   lesson.log_odds = std::clamp(lesson.log_odds, -kMostLogOdds, kMostLogOdds);
+  const Eigen::Vector2d astray = d - lesson.state.mean.head<2>();
+  const Eigen::Matrix2d S = lesson.state.covariance.topLeftCorner<2, 2>() + R;
   lesson.surprises = astray.dot(S.inverse() * astray) > kWrong;
   if (lesson.surprises) lesson.from = new_track_state(track.stamp, options.noise);
   lesson.state = updated(predicted(lesson.from, instant, options.noise), step);

@@ -58,6 +58,13 @@ TrackState new_track_state(Stamp stamp, const MotionNoise& noise) {
   return state;
 }
 
+TrackState along_road(TrackState state, double heading, const MotionNoise& noise) {
+  const Eigen::Matrix2d R = Eigen::Rotation2Dd(heading).toRotationMatrix();
+  const Eigen::Vector2d sigma(noise.unknown_speed_sigma, noise.aside_speed_sigma);
+  state.covariance.block<2, 2>(3, 3) = R * sigma.cwiseAbs2().asDiagonal() * R.transpose();
+  return state;
+}
+
 TrackState predicted(const TrackState& state, Stamp stamp, const MotionNoise& noise) {
   const double dt = seconds_between(state.stamp, stamp);
   if (dt <= 0) return state;

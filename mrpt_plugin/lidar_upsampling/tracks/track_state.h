@@ -11,7 +11,8 @@ namespace lidar_upsampling {
 /// How road users change their motion, as white noise (Bar-Shalom et al., Estimation with
 /// Applications to Tracking and Navigation, 6.3.2), and what is expected of a new one.
 struct MotionNoise {
-  double unknown_speed_sigma = 15;      ///< m/s per axis, of an object seen for the first time
+  double unknown_speed_sigma = 20;      ///< m/s per axis, of an object seen for the first time
+  double aside_speed_sigma = 2;         ///< m/s, likewise, across the road if it follows that
   double unknown_yaw_rate_sigma = 0.3;  ///< rad/s, likewise
   double acceleration = 4;              ///< m^2/s^3: after a second, 2 m/s
   double yaw_acceleration = 0.1;        ///< rad^2/s^3
@@ -38,6 +39,10 @@ struct TrackState {
 
 /// Nothing is known of how it moves.
 [[nodiscard]] TrackState new_track_state(Stamp stamp, const MotionNoise& noise);
+
+/// @brief The same, but it goes along a road, either way.
+/// @param heading of the road, rad.
+[[nodiscard]] TrackState along_road(TrackState state, double heading, const MotionNoise& noise);
 
 /// @brief At constant turn rate and velocity, but for the noise; nothing changes backwards in time.
 [[nodiscard]] TrackState predicted(const TrackState& state, Stamp stamp, const MotionNoise& noise);
