@@ -91,19 +91,31 @@ bool tells_step(const TwoSights& sights, const Eigen::Vector2d& step, const Trac
          (ends_in_sight(before, -d_before) && ends_in_sight(now, -d_now));
 }
 
-/// Of a step that may also be a registration gone astray.
-double log_likelihood(const Eigen::Vector2d& astray, const Eigen::Matrix2d& covariance,
-                      const TrackOptions& options) {
-  const double inlier = std::exp(-0.5 * astray.dot(covariance.inverse() * astray)) /
-                        (2 * M_PI * std::sqrt(covariance.determinant()));
-  return std::log((1 - options.outlier_share) * inlier +
-                  options.outlier_share * options.outlier_density);
+/// Of a Gaussian in the plane.
+double density(const Eigen::Vector2d& astray, const Eigen::Matrix2d& covariance) {
+  return std::exp(-0.5 * astray.dot(covariance.inverse() * astray)) /
+         (2 * M_PI * std::sqrt(covariance.determinant()));
 }
 
-double log_likelihood_of(const Eigen::Vector2d& step, const Eigen::Matrix2d& error,
-                         const TrackState& expected, const TrackOptions& options) {
-  return log_likelihood(step - expected.mean.head<2>(),
-                        expected.covariance.topLeftCorner<2, 2>() + error, options);
+/// A step's likelihoods. A registration gone astray leads anywhere or, of what moves, sticks to
+/// where that was: views of what comes into sight look as if it stood.
+struct Likelihoods {
+  double stuck = 0;  ///< moving, and the registration wrong
+  double parked = 0;
+  double moving = 0;  ///< or wrong
+};
+
+Likelihoods likelihoods(const PlanarStep& step, const TrackState& expected,
+                        const TrackOptions& options) {
+  constexpr double kCreep_m = 0.01;  // of what stands: points are this coarse
+  const Eigen::Vector2d d = step.mean.head<2>();
+  const Eigen::Matrix2d R = step.covariance.topLeftCorner<2, 2>();
+  const double share = options.outlier_share, astray = share * options.outlier_density;
+  const double stands = density(d, R + kCreep_m * kCreep_m * Eigen::Matrix2d::Identity());
+  const double moves =
+      density(d - expected.mean.head<2>(), R + expected.covariance.topLeftCorner<2, 2>());
+  return {share * stands, (1 - share) * stands + astray,
+          (1 - share) * moves + share * stands + astray};
 }
 
 }  // namespace
@@ -123,7 +135,6 @@ double decayed(double log_odds, double dt, const TrackOptions& options) {
 
 ScanLesson learn_from_scans(const ObjectTrack& track, const ScanObject& object,
                             const TrackedScan& scan, const TrackOptions& options) {
-  constexpr double kCreep_m = 0.01;       // of what stands: points are this coarse
   constexpr double kContradiction = 4.6;  // a hundred to one, of the free-space test
   constexpr double kWrong = 13.8;         // chi-square of two degrees of freedom, one in a thousand
   const Stamp instant = shifted(scan.scan.stamp, object.time_s);
@@ -143,21 +154,20 @@ ScanLesson learn_from_scans(const ObjectTrack& track, const ScanObject& object,
     step.covariance.topLeftCorner<2, 2>() += along * along.transpose();
   // Ego-motion's error moves all that is measured from one scan to the other.
   step.covariance.topLeftCorner<2, 2>() += ego_error(scan, object.centroid);
-  const Eigen::Matrix2d R = step.covariance.topLeftCorner<2, 2>();
-  const Eigen::Vector2d d = step.mean.head<2>();
-  double if_moving = log_likelihood_of(d, R, lesson.state, options);
+  Likelihoods found = likelihoods(step, lesson.state, options);
   if (const TrackState* other = track.other_latest()) {
     const TrackState on_road = predicted(*other, instant, options.noise);
-    const double if_on_road = log_likelihood_of(d, R, on_road, options);
-    if (if_on_road > if_moving) lesson.from = *other;
-    if (if_on_road > if_moving) lesson.state = on_road;
-    if_moving = log_mean(if_moving, if_on_road);
+    const Likelihoods if_on_road = likelihoods(step, on_road, options);
+    if (if_on_road.moving > found.moving) lesson.from = *other;
+    if (if_on_road.moving > found.moving) lesson.state = on_road;
+    found.moving = (found.moving + if_on_road.moving) / 2;
   }
-  lesson.log_odds +=
-      if_moving - log_likelihood(d, R + kCreep_m * kCreep_m * Eigen::Matrix2d::Identity(), options);
+  lesson.log_odds += std::log(found.moving / found.parked);
   lesson.log_odds = std::clamp(lesson.log_odds, -kMostLogOdds, kMostLogOdds);
-  const Eigen::Vector2d astray = d - lesson.state.mean.head<2>();
-  const Eigen::Matrix2d S = lesson.state.covariance.topLeftCorner<2, 2>() + R;
+  if (lesson.log_odds > 0 && 2 * found.stuck > found.moving) return lesson;
+  const Eigen::Vector2d astray = (step.mean - lesson.state.mean.head<3>()).head<2>();
+  const Eigen::Matrix2d S =
+      (lesson.state.covariance.topLeftCorner<3, 3>() + step.covariance).topLeftCorner<2, 2>();
   lesson.surprises = astray.dot(S.inverse() * astray) > kWrong;
   if (lesson.surprises) lesson.from = new_track_state(track.stamp, options.noise);
   lesson.state = updated(predicted(lesson.from, instant, options.noise), step);
