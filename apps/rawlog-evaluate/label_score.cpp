@@ -32,16 +32,26 @@ bool is_ignored(const ReportedObject& row, const LabelledInstant& instant, doubl
   });
 }
 
-void judge_box(const LabelledBox& box, const ReportedObject* row, double dt,
+/// Of the labelled object at the row's place on it; without a row, at its centre.
+Eigen::Vector3d true_velocity(const LabelledBox& box, const ReportedObject* row,
+                              const LabelledInstant& instant) {
+  if (row == nullptr) return box.velocity;
+  const Eigen::Vector3d centre_k = box.T_box_lidar.inverse().translation();
+  const Eigen::Vector3d arm =
+      instant.T_lidar_k_lidar_t.linear().transpose() * (at_key(*row, instant) - centre_k);
+  return box.velocity + box.yaw_rate * Eigen::Vector3d::UnitZ().cross(arm);
+}
+
+void judge_box(const LabelledBox& box, const ReportedObject* row, const LabelledInstant& instant,
                const LabelScoreOptions& options, LabelScore& score) {
   if (!box.counts) return;
   if (box.speed_mps > options.mover_mps) {
     const Eigen::Vector3d told = row != nullptr ? row->velocity : Eigen::Vector3d::Zero();
-    const double error = (told - box.velocity).head<2>().norm();
-    score.movers.push_back(
-        {box.id, box.class_name, box.range_m, box.speed_mps, row != nullptr, error * dt, error});
+    const double error = (told - true_velocity(box, row, instant)).head<2>().norm();
+    score.movers.push_back({box.id, box.class_name, box.range_m, box.speed_mps, row != nullptr,
+                            error * instant.dt, error});
   } else if (box.speed_mps < options.parked_mps && row != nullptr) {
-    score.parked.push_back({row->moving, row->moving ? row->velocity.norm() * dt : 0});
+    score.parked.push_back({row->moving, row->moving ? row->velocity.norm() * instant.dt : 0});
   }
 }
 
@@ -66,7 +76,7 @@ void judge_instant(const LabelledInstant& instant, const RowsAt& rows,
       claimed.insert(row->second);
       if (mine == nullptr || row->second->points > mine->points) mine = row->second;
     }
-    judge_box(box, mine, instant.dt, options, score);
+    judge_box(box, mine, instant, options, score);
     follow(box, mine, tracks, score);
   }
   for (auto row = first; row != last; ++row)
@@ -119,6 +129,7 @@ std::optional<LabelledBox> labelled_box(const Truth& truth, const TrueObject& ob
   box.size = object.size;
   box.speed_mps = velocity->norm();
   box.velocity = T_world_lidar_t.linear().transpose() * *velocity;
+  box.yaw_rate = object.yaw_rate_at(stamp);
   box.range_m = T_box_lidar->inverse().translation().head<2>().norm();
   return box;
 }

@@ -31,6 +31,7 @@ struct LabelledBox {
   Eigen::Vector3d size = Eigen::Vector3d::Zero();  ///< m
   /// Over ground, at the instant, lidar frame there.
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();
+  double yaw_rate = 0;  ///< rad/s, where it is told: what turns is nowhere as fast as its centre
   double speed_mps = 0;
   double range_m = 0;  ///< of its centre, at the key scan
   bool counts = true;  ///< in view, within range and hit by the scan; if not, it still takes rows

@@ -17,16 +17,21 @@ std::optional<Pose> lidar_in_world(const Truth& truth, const LidarScan& scan, St
   return vehicle->T_world_vehicle * scan.T_vehicle_lidar;
 }
 
-}  // namespace
-
-bool TrueObject::moves_at(Stamp stamp) const {
-  if (moving.empty()) return false;  // no label tells
-  const auto next = moving.lower_bound(stamp);
-  if (next == moving.begin()) return next->second;
+template <typename Value>
+Value nearest(const std::map<Stamp, Value>& told, Stamp stamp, Value if_none) {
+  if (told.empty()) return if_none;
+  const auto next = told.lower_bound(stamp);
+  if (next == told.begin()) return next->second;
   const auto before = std::prev(next);
-  if (next == moving.end()) return before->second;
+  if (next == told.end()) return before->second;
   return next->first - stamp < stamp - before->first ? next->second : before->second;
 }
+
+}  // namespace
+
+bool TrueObject::moves_at(Stamp stamp) const { return nearest(moving, stamp, false); }
+
+double TrueObject::yaw_rate_at(Stamp stamp) const { return nearest(yaw_rate, stamp, 0.); }
 
 std::optional<Eigen::Vector3d> TrueObject::velocity_at(Stamp stamp) const {
   const auto next = velocity.lower_bound(stamp);

@@ -19,11 +19,14 @@ struct TrueObject {
   Trajectory T_world_object;
   std::map<Stamp, bool> moving;
   std::map<Stamp, Eigen::Vector3d> velocity;  ///< m/s in the world, at the labels that tell one
+  std::map<Stamp, double> yaw_rate;           ///< rad/s, likewise; people's labels tell none
 
   /// At the nearest stamp known.
   [[nodiscard]] bool moves_at(Stamp stamp) const;
   /// Between two labels that tell one, or within 60 ms of one. @return none further off.
   [[nodiscard]] std::optional<Eigen::Vector3d> velocity_at(Stamp stamp) const;
+  /// At the nearest label; 0 where none tells one.
+  [[nodiscard]] double yaw_rate_at(Stamp stamp) const;
 };
 
 /// An area of a camera's picture with objects that nobody labelled.

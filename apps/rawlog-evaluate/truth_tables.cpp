@@ -52,6 +52,7 @@ TrueObject new_object(const CsvTable& boxes, std::size_t row) {
       {boxes.number(row, "length"), boxes.number(row, "width"), boxes.number(row, "height")},
       Trajectory(kTruthLimits),
       {},
+      {},
       {}};
   if (!(object.size.minCoeff() > 0))
     throw std::runtime_error(boxes.place(row, "length") + ": object " + object.id +
@@ -123,6 +124,8 @@ void read_objects(const CsvTable& boxes, Truth& truth) {
     if (boxes.has("moving")) object.moving[stamp] = boxes.integer(row, "moving") != 0;
     if (!boxes.has("vx")) continue;
     if (const auto velocity = velocity_of(boxes, row)) object.velocity[stamp] = *velocity;
+    if (boxes.has("yaw_rate") && !boxes.text(row, "yaw_rate").empty())
+      object.yaw_rate[stamp] = boxes.number(row, "yaw_rate");
   }
   if (!boxes.has("vx")) fit_velocities(tracks, truth);
   drop_jumps(tracks, truth);

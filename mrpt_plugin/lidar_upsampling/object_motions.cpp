@@ -32,16 +32,15 @@ Appearance appearance_of(const Camera& camera, const LidarScan& scan, const Obje
   return result;
 }
 
-// On the picture that shows most of it, if any shows enough.
+// On the picture that shows most of it, if any does.
 Appearance shown(const std::vector<ImageResult>& group, const LidarScan& scan,
-                 const ObjectMotion& motion, double min_share) {
+                 const ObjectMotion& motion) {
   Appearance best;
   for (const ImageResult& result : group) {
     const Appearance here = appearance_of(result.camera, scan, motion);
     if (here.num_points > best.num_points) best = here;
   }
-  const auto enough = min_share * static_cast<double>(motion.points.size());
-  return best.num_points > 0 && best.num_points >= enough ? best : Appearance{};
+  return best.num_points > 0 ? best : Appearance{};
 }
 
 // All that the pictures of an instant show of an object.
@@ -134,8 +133,7 @@ std::vector<ObjectMotion> estimate_motions(const std::vector<ImageResult>& group
     motion.num_tracked = static_cast<int>(sights.image.observations.size());
     motion.status = status_of(answer, motion.num_tracked, config);
     motion.track_id = track.id;
-    const Appearance on_picture =
-        shown(group, key.scan, motion, config.detector.clusters.min_visible);
+    const Appearance on_picture = shown(group, key.scan, motion);
     if (on_picture.camera == nullptr) return;
     motion.camera_label = on_picture.camera->label;
     motion.box = on_picture.box;

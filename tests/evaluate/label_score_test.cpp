@@ -60,6 +60,14 @@ TEST(LabelScore, a_velocity_far_off_does_not_hide_the_row_from_its_label) {
   EXPECT_TRUE(score.false_shifts_m.empty());
 }
 
+TEST(LabelScore, the_rear_of_a_car_that_turns_swings_out) {
+  LabelledInstant instant = car_at(6);
+  instant.boxes[0].yaw_rate = 1;
+  const LabelScore score = score_of(instant, {told({18, 0, 0}, {6, -2, 0})});
+  ASSERT_EQ(score.movers.size(), 1U);
+  EXPECT_NEAR(score.movers[0].error_mps, 0, 1e-9);
+}
+
 TEST(LabelScore, a_mover_that_no_row_tells_of_is_left_standing) {
   const LabelScore score = score_of(car_at(14), {});
   ASSERT_EQ(score.movers.size(), 1U);

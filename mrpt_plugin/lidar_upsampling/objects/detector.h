@@ -39,7 +39,6 @@ struct ClusterDetectorOptions {
       1;  ///< m, of the lowest point above the ground, if nothing hides what is below it
   double min_length = 0.3, max_length = 13;  ///< m, the longer side of the footprint
   double max_width = 3.2;                    ///< m, the shorter side
-  double min_visible = 0.15;                 ///< share of its points: less is not in view
 };
 
 /// Any Darknet or ONNX model of the YOLO families (v2-v5, v8, FastestDet) that cv::dnn reads.
