@@ -10,12 +10,6 @@
 namespace lidar_upsampling {
 namespace {
 
-/// Of a Gaussian in the plane.
-double density(const Eigen::Vector2d& astray, const Eigen::Matrix2d& covariance) {
-  return std::exp(-0.5 * astray.dot(covariance.inverse() * astray)) /
-         (2 * M_PI * std::sqrt(covariance.determinant()));
-}
-
 /// How much likelier the object is this track than a new one, as a logarithm.
 double log_ratio(const ObjectTrack& track, const ScanObject& object, const TrackedScan& scan,
                  const TrackOptions& options) {
@@ -31,14 +25,15 @@ double log_ratio(const ObjectTrack& track, const ScanObject& object, const Track
       shift * shift * Eigen::Matrix2d::Identity() + ego_error(scan, object.centroid);
   const Eigen::Vector3d step = scan.T_rest_lidar * object.centroid - track.centroid_rest;
   const double is_moving = 1 / (1 + std::exp(-track.latest_log_odds));
-  const auto moving = [&](const TrackState& state) {
-    const TrackState now = predicted(state, instant, options.noise);
-    return density(step.head<2>() - now.mean.head<2>(),
-                   parked + now.covariance.topLeftCorner<2, 2>());
-  };
-  double if_moving = moving(track.latest);
-  if (const TrackState* other = track.other_latest()) if_moving = (if_moving + moving(*other)) / 2;
-  const double here = is_moving * if_moving + (1 - is_moving) * density(step.head<2>(), parked);
+  double if_moving = 0;
+  for (const Course& course : courses_of(track, options)) {
+    const TrackState now = predicted(course.from, instant, options.noise);
+    if_moving +=
+        course.probability * gaussian_density(step.head<2>() - now.mean.head<2>(),
+                                              parked + now.covariance.topLeftCorner<2, 2>());
+  }
+  const double here =
+      is_moving * if_moving + (1 - is_moving) * gaussian_density(step.head<2>(), parked);
   const double size = static_cast<double>(object.points.size()) * object.centroid.squaredNorm();
   return std::log(here / options.birth_density) -
          0.5 * std::pow(std::log(size / track.size) / kSizeRatio, 2) -

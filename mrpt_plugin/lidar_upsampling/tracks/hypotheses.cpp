@@ -107,8 +107,10 @@ void hear(MotionAnswer& answer, const ImageFactor& image, const MotionQuestion& 
   const double of_any = fit_motion(image, question.centroid, expected.any, {fits.moving.mean},
                                    sigma_px, options.points)
                             .log_evidence;
-  answer.log_odds += log_likelihood(fits.moving.log_evidence, of_any, options) -
-                     log_likelihood(fits.parked.log_evidence, of_any, options);
+  const double parked = log_likelihood(fits.parked.log_evidence, of_any, options);
+  answer.log_odds +=
+      log_likelihood(log_likelihood(fits.moving.log_evidence, of_any, options), parked, options) -
+      parked;
   answer.state = learnt(answer.state, expected, fits.moving, question.R_rest_lidar_k);
 }
 

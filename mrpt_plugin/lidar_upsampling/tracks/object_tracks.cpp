@@ -96,6 +96,15 @@ std::vector<int> take_up_scan(TrackStore& store, const std::vector<ScanObject>& 
   return track_of;
 }
 
+std::vector<Course> courses_of(const ObjectTrack& track, const TrackOptions& options) {
+  const bool is_told = options.image_factor && track.latest.stamp != track.stamp;
+  if (!is_told && track.on_road) return {{track.state, 0.5}, {*track.on_road, 0.5}};
+  const double wrong = options.outlier_share;
+  const Course any{new_track_state(track.stamp, options.noise), wrong, true};
+  if (!is_told) return {{track.state, 1 - wrong}, any};
+  return {{track.latest, 1 - 2 * wrong}, {track.state, wrong}, any};
+}
+
 TrackState ObjectTrack::expected_at(Stamp instant, const MotionNoise& noise) const {
   if (!ahead) return predicted(state, instant, noise);
   return smoothed(predicted(ahead->from, instant, noise), ahead->next, noise);

@@ -82,10 +82,6 @@ struct ObjectTrack {
 
   /// All that is known before the image is looked at.
   [[nodiscard]] TrackState expected_at(Stamp instant, const MotionNoise& noise) const;
-  /// What else may be expected of `latest`, as long as nothing has told.
-  [[nodiscard]] const TrackState* other_latest() const {
-    return on_road && latest.stamp == stamp ? &*on_road : nullptr;
-  }
   [[nodiscard]] double expected_log_odds() const { return ahead ? ahead->log_odds : log_odds; }
 };
 
@@ -98,6 +94,17 @@ struct TrackedScan {
   const SeenSpace* seen_before = nullptr;  ///< by the scan before; null: there was none
   Stamp stamp_before;
 };
+
+/// How an object that moves may go on from its last sight.
+struct Course {
+  TrackState from;
+  double probability = 0;
+  bool is_new = false;  ///< nothing that was known of it is true
+};
+
+/// @brief As images have told since, as known before (they may be wrong), or any (that may be,
+/// too); as long as nothing has told: anywhere, or our road. The probabilities sum to one.
+[[nodiscard]] std::vector<Course> courses_of(const ObjectTrack& track, const TrackOptions& options);
 
 struct TrackStore {
   std::vector<ObjectTrack> tracks;

@@ -91,31 +91,76 @@ bool tells_step(const TwoSights& sights, const Eigen::Vector2d& step, const Trac
          (ends_in_sight(before, -d_before) && ends_in_sight(now, -d_now));
 }
 
-/// Of a Gaussian in the plane.
-double density(const Eigen::Vector2d& astray, const Eigen::Matrix2d& covariance) {
-  return std::exp(-0.5 * astray.dot(covariance.inverse() * astray)) /
-         (2 * M_PI * std::sqrt(covariance.determinant()));
-}
-
-/// A step's likelihoods. A registration gone astray leads anywhere or, of what moves, sticks to
+/// Likelihoods of a step. A registration gone astray leads anywhere or, of what moves, sticks to
 /// where that was: views of what comes into sight look as if it stood.
-struct Likelihoods {
-  double stuck = 0;  ///< moving, and the registration wrong
-  double parked = 0;
-  double moving = 0;  ///< or wrong
+class StepLikelihoods {
+ public:
+  StepLikelihoods(const PlanarStep& step, const TrackOptions& options)
+      : d_(step.mean.head<2>()),
+        R_(step.covariance.topLeftCorner<2, 2>()),
+        share_(options.outlier_share),
+        astray_(options.outlier_share * options.outlier_density),
+        stands_(gaussian_density(d_, R_ + kCreep_m * kCreep_m * Eigen::Matrix2d::Identity())) {}
+
+  [[nodiscard]] double parked() const { return (1 - share_) * stands_ + astray_; }
+  /// @param course at the second sight.
+  [[nodiscard]] double moving(const TrackState& course) const {
+    return (1 - share_) * gaussian_density(d_ - course.mean.head<2>(),
+                                           R_ + course.covariance.topLeftCorner<2, 2>()) +
+           stuck() + astray_;
+  }
+  /// Of what moves, with a wrong registration.
+  [[nodiscard]] double stuck() const { return share_ * stands_; }
+
+ private:
+  static constexpr double kCreep_m = 0.01;  // of what stands: points are this coarse
+  Eigen::Vector2d d_;
+  Eigen::Matrix2d R_;
+  double share_, astray_, stands_;
 };
 
-Likelihoods likelihoods(const PlanarStep& step, const TrackState& expected,
-                        const TrackOptions& options) {
-  constexpr double kCreep_m = 0.01;  // of what stands: points are this coarse
-  const Eigen::Vector2d d = step.mean.head<2>();
-  const Eigen::Matrix2d R = step.covariance.topLeftCorner<2, 2>();
-  const double share = options.outlier_share, astray = share * options.outlier_density;
-  const double stands = density(d, R + kCreep_m * kCreep_m * Eigen::Matrix2d::Identity());
-  const double moves =
-      density(d - expected.mean.head<2>(), R + expected.covariance.topLeftCorner<2, 2>());
-  return {share * stands, (1 - share) * stands + astray,
-          (1 - share) * moves + share * stands + astray};
+/// What the scans tell of the step, the ego-motion's error included.
+struct MeasuredStep : PlanarStep {
+  bool was_there = false;  ///< each scan saw a surface where the other one shows the object
+};
+
+MeasuredStep measured_step(const ObjectTrack& track, const ScanObject& object,
+                           const TrackedScan& scan, const TrackState& expected,
+                           const TrackOptions& options) {
+  const TwoSights sights = two_sights(track, object, scan, expected);
+  const auto registered = registered_step(sights.scans, scan.T_rest_lidar.linear());
+  MeasuredStep step;
+  static_cast<PlanarStep&>(step) =
+      registered ? *registered : centroid_step(track, object, scan, options);
+  step.was_there = registered && was_there_all_along(sights, step, scan);
+  const Eigen::Vector2d along = step.mean.head<2>();
+  if (!tells_step(sights, along, scan))
+    step.covariance.topLeftCorner<2, 2>() += along * along.transpose();
+  step.covariance.topLeftCorner<2, 2>() += ego_error(scan, object.centroid);
+  return step;
+}
+
+/// Parked or moving, by the step, and on which course.
+/// @return whether the step may be taken for its own.
+bool judge_step(const ObjectTrack& track, const MeasuredStep& step, const TrackOptions& options,
+                ScanLesson& lesson) {
+  constexpr double kContradiction = 4.6;  // a hundred to one, of the free-space test
+  const StepLikelihoods likelihood(step, options);
+  double moving = 0, best = 0;
+  for (const Course& course : courses_of(track, options)) {
+    const TrackState now = predicted(course.from, lesson.state.stamp, options.noise);
+    const double here = course.probability * likelihood.moving(now);
+    moving += here;
+    if (here <= best) continue;
+    best = here;
+    lesson.from = course.from;
+    lesson.surprises = course.is_new;
+    lesson.state = now;
+  }
+  if (step.was_there) lesson.log_odds -= kContradiction;
+  lesson.log_odds = std::clamp(lesson.log_odds + std::log(moving / likelihood.parked()),
+                               -kMostLogOdds, kMostLogOdds);
+  return lesson.log_odds <= 0 || 2 * likelihood.stuck() <= moving;
 }
 
 }  // namespace
@@ -135,42 +180,15 @@ double decayed(double log_odds, double dt, const TrackOptions& options) {
 
 ScanLesson learn_from_scans(const ObjectTrack& track, const ScanObject& object,
                             const TrackedScan& scan, const TrackOptions& options) {
-  constexpr double kContradiction = 4.6;  // a hundred to one, of the free-space test
-  constexpr double kWrong = 13.8;         // chi-square of two degrees of freedom, one in a thousand
   const Stamp instant = shifted(scan.scan.stamp, object.time_s);
   ScanLesson lesson;
   lesson.from = options.image_factor ? track.latest : track.state;
-  const TrackState expected = lesson.state = predicted(lesson.from, instant, options.noise);
+  lesson.state = predicted(lesson.from, instant, options.noise);
   lesson.log_odds = decayed(options.image_factor ? track.latest_log_odds : track.log_odds,
                             seconds_between(track.stamp, instant), options);
   if (!options.scan_factor) return lesson;
-
-  const TwoSights sights = two_sights(track, object, scan, expected);
-  const auto registered = registered_step(sights.scans, scan.T_rest_lidar.linear());
-  PlanarStep step = registered ? *registered : centroid_step(track, object, scan, options);
-  if (registered && was_there_all_along(sights, step, scan)) lesson.log_odds -= kContradiction;
-  const Eigen::Vector2d along = step.mean.head<2>();
-  if (!tells_step(sights, along, scan))
-    step.covariance.topLeftCorner<2, 2>() += along * along.transpose();
-  // Ego-motion's error moves all that is measured from one scan to the other.
-  step.covariance.topLeftCorner<2, 2>() += ego_error(scan, object.centroid);
-  Likelihoods found = likelihoods(step, lesson.state, options);
-  if (const TrackState* other = track.other_latest()) {
-    const TrackState on_road = predicted(*other, instant, options.noise);
-    const Likelihoods if_on_road = likelihoods(step, on_road, options);
-    if (if_on_road.moving > found.moving) lesson.from = *other;
-    if (if_on_road.moving > found.moving) lesson.state = on_road;
-    found.moving = (found.moving + if_on_road.moving) / 2;
-  }
-  lesson.log_odds += std::log(found.moving / found.parked);
-  lesson.log_odds = std::clamp(lesson.log_odds, -kMostLogOdds, kMostLogOdds);
-  if (lesson.log_odds > 0 && 2 * found.stuck > found.moving) return lesson;
-  const Eigen::Vector2d astray = (step.mean - lesson.state.mean.head<3>()).head<2>();
-  const Eigen::Matrix2d S =
-      (lesson.state.covariance.topLeftCorner<3, 3>() + step.covariance).topLeftCorner<2, 2>();
-  lesson.surprises = astray.dot(S.inverse() * astray) > kWrong;
-  if (lesson.surprises) lesson.from = new_track_state(track.stamp, options.noise);
-  lesson.state = updated(predicted(lesson.from, instant, options.noise), step);
+  const MeasuredStep step = measured_step(track, object, scan, lesson.state, options);
+  if (judge_step(track, step, options, lesson)) lesson.state = updated(lesson.state, step);
   return lesson;
 }
 

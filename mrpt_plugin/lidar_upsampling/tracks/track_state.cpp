@@ -3,6 +3,7 @@
 #include "lidar_upsampling/tracks/track_state.h"
 
 #include <Eigen/Cholesky>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
@@ -49,6 +50,11 @@ Eigen::Matrix<double, 6, 3> gain(const TrackState& state, const Eigen::Matrix3d&
 }
 
 }  // namespace
+
+double gaussian_density(const Eigen::Vector2d& astray, const Eigen::Matrix2d& covariance) {
+  return std::exp(-0.5 * astray.dot(covariance.inverse() * astray)) /
+         (2 * M_PI * std::sqrt(covariance.determinant()));
+}
 
 TrackState new_track_state(Stamp stamp, const MotionNoise& noise) {
   TrackState state;

@@ -24,6 +24,10 @@ struct PlanarStep {
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
 };
 
+/// @brief Density (1/m^2) of a Gaussian in the plane, so far from its mean.
+[[nodiscard]] double gaussian_density(const Eigen::Vector2d& astray,
+                                      const Eigen::Matrix2d& covariance);
+
 /// @brief A Gaussian over (x, y, heading, vx, vy, yaw rate): the step since the scan that last
 /// showed the object, and the velocity, in the level axes of a frame at rest. m, rad, s.
 struct TrackState {
