@@ -91,5 +91,22 @@ TEST(Association, follows_a_wrong_prior_no_longer_than_to_the_next_scan) {
   EXPECT_LT(street.track(second[0]).log_odds, 2);
 }
 
+TEST(Association, goes_on_as_scans_have_shown_where_pictures_told_another_way) {
+  Street street;
+  std::vector<int> seen;
+  for (int scan = 0; scan < 5; ++scan) seen = street.show(0.1 * scan, {car_at(30 - scan, 5)});
+  ObjectTrack& track = street.track(seen[0]);
+  const int id = track.id;
+  track.latest.stamp = shifted(track.stamp, 0.05);
+  track.latest.mean.head<3>() << 0, 1, 0;  // to the side, and surely so
+  track.latest.mean.segment<2>(3) << 0, 20;
+  track.latest.covariance = 1e-4 * Matrix6d::Identity();
+  const auto after = street.show(0.5, {car_at(25, 5)});
+  EXPECT_EQ(street.id(after[0]), id);
+  EXPECT_GT(street.track(after[0]).log_odds, 0);
+  EXPECT_NEAR(street.track(after[0]).state.velocity().x(), -10, 1.5);
+  EXPECT_NEAR(street.track(after[0]).state.velocity().y(), 0, 1.5);
+}
+
 }  // namespace
 }  // namespace lidar_upsampling
