@@ -66,6 +66,14 @@ nlohmann::json row_json(const DensifyReport::Row& row) {
   return json;
 }
 
+nlohmann::json cluster_json(Stamp key_stamp, const OtherCluster& cluster) {
+  return {{"key_stamp", key_stamp.time_since_epoch().count()},
+          {"position_m", vector_json(cluster.centroid_lidar_k)},
+          {"size_m", vector_json(cluster.size)},
+          {"points", cluster.num_points},
+          {"why", cluster.why}};
+}
+
 std::optional<ObjectBox> box_of(int track, const std::vector<ObjectBox>& boxes) {
   for (const ObjectBox& box : boxes)
     if (box.track_id == track) return box;
@@ -112,6 +120,9 @@ void DensifyReport::add(const VirtualScan& scan, bool keep_rows) {
                     scan.T_rest_lidar_t});
     rows.back().object.points = {};
   }
+  if (keep_rows)
+    for (const OtherCluster& cluster : scan.other_clusters)
+      other_clusters.emplace_back(scan.key_stamp, cluster);
   add(scan.timing);
 }
 
@@ -146,9 +157,11 @@ nlohmann::json to_json(const DensifyReport& report) {
                       {"stages", nlohmann::json::array()},
                       {"frames",
                        {{"position_m", "LiDAR at the image"},
-                        {"velocity_m_s", "LiDAR at the key scan, over ground"}}},
+                        {"velocity_m_s", "LiDAR at the key scan, over ground"},
+                        {"clusters_left_static", "LiDAR at the key scan"}}},
                       {"objects", nlohmann::json::array()},
-                      {"objects_out_of_view", nlohmann::json::array()}};
+                      {"objects_out_of_view", nlohmann::json::array()},
+                      {"clusters_left_static", nlohmann::json::array()}};
   for (const std::string& stage : report.stage_order) {
     const std::vector<double>& times = report.stage_ms.at(stage);
     json["stages"].push_back({{"stage", stage},
@@ -160,6 +173,8 @@ nlohmann::json to_json(const DensifyReport& report) {
   for (const DensifyReport::Row& row : report.rows)
     json[row.object.camera_label.empty() ? "objects_out_of_view" : "objects"].push_back(
         row_json(row));
+  for (const auto& [key_stamp, cluster] : report.other_clusters)
+    json["clusters_left_static"].push_back(cluster_json(key_stamp, cluster));
   return json;
 }
 

@@ -7,6 +7,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "lidar_upsampling/scene/object_boxes.h"
@@ -39,6 +40,7 @@ struct DensifyReport {
     Pose T_rest_lidar = Pose::Identity();  ///< at `stamp`, as in VirtualScan
   };
   std::vector<Row> rows;
+  std::vector<std::pair<Stamp, OtherCluster>> other_clusters;  ///< by key scan
 
   void add(const VirtualScan& scan, bool keep_rows);
   void add(const std::vector<StageTime>& times);

@@ -32,6 +32,7 @@ struct PreparedScan {
   std::shared_ptr<const SeenSpace> seen, seen_before;  ///< free space: by it, by the scan before
   std::unique_ptr<const BeamResampler> resampler;  ///< where virtual scans are to lie on the beams
   std::vector<ScanObject> objects;                 ///< candidates
+  std::vector<OtherCluster> other_clusters;        ///< until a virtual scan has told of them
 
   [[nodiscard]] TrackedScan tracked() const {
     return {scan, T_rest_lidar, step_covariance, *seen, seen_before.get(), stamp_before};

@@ -23,14 +23,23 @@ ScanObject make_object(const LidarScan& scan, std::vector<int> points, std::stri
 
 }  // namespace
 
-std::vector<ScanObject> objects_of_clusters(const LidarScan& scan, const SceneSegments& segments,
-                                            const Config& config) {
-  std::vector<ScanObject> objects;
+SortedClusters sorted_clusters(const LidarScan& scan, const SceneSegments& segments,
+                               const Config& config) {
+  SortedClusters result;
   const bool is_sweep = config.sweep.scan_time != ScanTime::none;
-  for (const int i : road_user_clusters(scan, segments, config.detector.clusters))
-    objects.push_back(make_object(scan, segments.clusters[i], class_by_size(segments.extents[i]),
-                                  segments.extents[i].length, is_sweep));
-  return objects;
+  const auto why = why_no_road_users(scan, segments, config.detector.clusters);
+  for (std::size_t i = 0; i < why.size(); ++i) {
+    const ClusterExtent& extent = segments.extents[i];
+    if (why[i] == nullptr)
+      result.objects.push_back(
+          make_object(scan, segments.clusters[i], class_by_size(extent), extent.length, is_sweep));
+    else
+      result.others.push_back({extent.centroid.cast<double>(),
+                               {extent.length, extent.width, extent.height()},
+                               segments.clusters[i].size(),
+                               why[i]});
+  }
+  return result;
 }
 
 std::vector<ScanObject> objects_of_boxes(const LidarScan& scan, const SceneSegments& segments,

@@ -10,10 +10,14 @@
 
 namespace lidar_upsampling {
 
-/// @brief The clusters of a scan that may be road users, seen by a camera or not.
-[[nodiscard]] std::vector<ScanObject> objects_of_clusters(const LidarScan& scan,
-                                                          const SceneSegments& segments,
-                                                          const Config& config);
+/// A scan's clusters: those that may be road users, seen by a camera or not, and the others.
+struct SortedClusters {
+  std::vector<ScanObject> objects;
+  std::vector<OtherCluster> others;
+};
+
+[[nodiscard]] SortedClusters sorted_clusters(const LidarScan& scan, const SceneSegments& segments,
+                                             const Config& config);
 
 /// @brief What lies in a detector's boxes on a picture that shows the scan.
 /// @param T_camera_lidar ego-motion until the picture included.

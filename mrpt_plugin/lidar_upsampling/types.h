@@ -159,6 +159,14 @@ enum class Resampling {
   no_beams        ///< as with `none`: no rings, or not a spinning LiDAR's
 };
 
+/// A cluster of a real scan that is no object candidate.
+struct OtherCluster {
+  Eigen::Vector3d centroid_lidar_k = Eigen::Vector3d::Zero();
+  Eigen::Vector3d size = Eigen::Vector3d::Zero();  ///< m: of the footprint, length >= width; height
+  std::size_t num_points = 0;
+  const char* why = "";  ///< a word: too_few_points, too_far, ...
+};
+
 /// A scan that no sensor took: the key scan's points at an image's instant.
 struct VirtualScan {
   LidarScan scan;                             ///< stamp = the image's; label = the output label
@@ -171,6 +179,7 @@ struct VirtualScan {
       Pose::Identity();  ///< lidar frame at t in a frame at rest, the first scan's
   bool ego_extrapolated = false;
   Resampling resampling = Resampling::none;
+  std::vector<OtherCluster> other_clusters;  ///< of the key scan, at its first use
   std::vector<StageTime>
       timing;  ///< of this scan's image, and of the key scan's stages at its first use
 };

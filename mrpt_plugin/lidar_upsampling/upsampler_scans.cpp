@@ -64,7 +64,9 @@ std::unique_ptr<PreparedScan> LidarUpsampler::prepared(LidarScan scan, const Pre
     result->resampler = std::make_unique<const BeamResampler>(result->scan, config_.resampling);
   }
   const Stopwatch watch(timing_, "candidates");
-  result->objects = objects_of_clusters(result->scan, result->segments, config_);
+  SortedClusters sorted = sorted_clusters(result->scan, result->segments, config_);
+  result->objects = std::move(sorted.objects);
+  result->other_clusters = std::move(sorted.others);
   return result;
 }
 
@@ -83,6 +85,7 @@ void LidarUpsampler::take_up(const Picture* anchor) {
         ego_step(anchor->instant).T_to_from;
     key_->objects = objects_of_boxes(key_->scan, key_->segments, anchor->image, T_camera_lidar,
                                      *detector_, config_);
+    key_->other_clusters.clear();
   }
   track_of_ = take_up_scan(store_, key_->objects, key_->tracked(), config_.object_tracks);
   is_taken_up_ = true;

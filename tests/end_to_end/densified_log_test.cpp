@@ -70,6 +70,8 @@ TEST(DensifiedLog, the_report_counts_what_the_log_holds) {
   EXPECT_EQ(report["scans_in"], 5);
   EXPECT_EQ(report["images_in"], 13);
   EXPECT_EQ(report["virtual_scans"], kVirtualScans);
+  ASSERT_FALSE(report["clusters_left_static"].empty());
+  EXPECT_NE(report["clusters_left_static"][0]["why"], "");
   EXPECT_EQ(report["entries_in"], observations_of(folder / "in.rawlog").size());
   EXPECT_TRUE(report["warnings"].empty());
   EXPECT_FALSE(report["stages"].empty());

@@ -4,6 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <string>
+
 #include "lidar_upsampling/objects/scene_segments.h"
 #include "lidar_upsampling/units.h"
 #include "street_scan.h"
@@ -57,6 +60,27 @@ TEST(RoadUsers, what_the_view_cuts_off_may_be_a_car_however_little_is_seen) {
 
 TEST(RoadUsers, as_little_of_a_thing_in_the_midst_of_the_view_is_a_post) {
   EXPECT_EQ(num_found(depth_scan_of({{7, 0, -kGroundBelow_m}, 0.2, 0.2, 1.4, 0})), 0U);
+}
+
+TEST(RoadUsers, what_is_none_has_its_reason) {
+  const LidarScan scan = depth_scan_of(box_at(7, 0, 4));
+  const SceneSegments segments = segment_scan(scan);
+  ClusterDetectorOptions options;
+  const auto is_why = [&](const std::string& reason) {
+    const auto why = why_no_road_users(scan, segments, options);
+    return std::count_if(why.begin(), why.end(),
+                         [&](const char* word) { return word != nullptr && word == reason; }) == 1;
+  };
+  EXPECT_EQ(num_found(scan), 1U);
+  options.max_range = 5;
+  EXPECT_TRUE(is_why("too_far"));
+  options = {};
+  options.max_width = 0.5;
+  options.max_length = 1;
+  EXPECT_TRUE(is_why("too_long"));
+  options = {};
+  options.min_points = 100000;
+  EXPECT_TRUE(is_why("too_few_points"));
 }
 
 }  // namespace

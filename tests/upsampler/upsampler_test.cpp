@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <string>
 #include <utility>
 
 #include "street_run.h"
@@ -72,6 +73,24 @@ double mean_error_of_moving_points(const StreetRun& street, const std::vector<Vi
   double sum = 0;
   for (const VirtualScan& scan : scans) sum += point_errors(street, scan).moving;
   return sum / static_cast<double>(scans.size());
+}
+
+TEST(LidarUpsampler, clusters_that_are_no_candidates_are_told_once_for_each_real_scan) {
+  StreetRun street;
+  Config config = moving_points();
+  config.detector.clusters.max_range = 15;
+  LidarUpsampler upsampler{config};
+  std::map<Stamp, int> times;
+  for (const VirtualScan& scan : street.run(upsampler)) {
+    if (scan.other_clusters.empty()) continue;
+    ++times[scan.key_stamp];
+    EXPECT_TRUE(std::any_of(
+        scan.other_clusters.begin(), scan.other_clusters.end(), [](const OtherCluster& cluster) {
+          return std::string(cluster.why) == "too_far" && cluster.centroid_lidar_k.norm() > 15;
+        }));
+  }
+  EXPECT_EQ(times.size(), 5U);
+  for (const auto& [key_stamp, count] : times) EXPECT_EQ(count, 1);
 }
 
 TEST(LidarUpsampler, who_knows_the_next_scan_moves_cars_better) {

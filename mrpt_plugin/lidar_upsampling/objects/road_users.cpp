@@ -15,15 +15,19 @@ bool within(double value, double low, double high) { return value >= low && valu
 
 /// But for where it begins above the ground. What one ring shows reaches up to the next, `ring_m`.
 /// One that the sensor's view cuts off may be longer than it seems, `is_cut_off`.
-bool has_size_of_road_user(const ClusterExtent& extent, std::size_t num_points, bool has_ground,
-                           double ring_m, bool is_cut_off, const ClusterDetectorOptions& options) {
-  if (static_cast<int>(num_points) < options.min_points) return false;
-  if (!within(extent.centroid.head<2>().norm(), options.min_range, options.max_range)) return false;
-  if (!within(extent.length, is_cut_off ? 0 : options.min_length, options.max_length)) return false;
-  if (extent.width > options.max_width) return false;
-  if (!has_ground) return within(extent.height(), options.min_height / 2, options.max_height);
-  const double top = extent.height() < ring_m / 2 ? extent.top + ring_m : extent.top;
-  return top >= options.min_height && extent.top <= options.max_height;
+const char* why_not_by_size(const ClusterExtent& extent, std::size_t num_points, bool has_ground,
+                            double ring_m, bool is_cut_off, const ClusterDetectorOptions& options) {
+  const double range = extent.centroid.head<2>().norm();
+  if (static_cast<int>(num_points) < options.min_points) return "too_few_points";
+  if (range < options.min_range) return "too_near";
+  if (range > options.max_range) return "too_far";
+  if (!is_cut_off && extent.length < options.min_length) return "too_short";
+  if (extent.length > options.max_length) return "too_long";
+  if (extent.width > options.max_width) return "too_wide";
+  const double reach = has_ground && extent.height() < ring_m / 2 ? ring_m : 0;
+  const double top = has_ground ? extent.top : extent.height();
+  if (top + reach < (has_ground ? options.min_height : options.min_height / 2)) return "too_low";
+  return top > options.max_height ? "too_high" : nullptr;
 }
 
 /// Tells clusters at the sides of a view that does not go all around.
@@ -56,24 +60,31 @@ const char* class_by_size(const ClusterExtent& extent) {
   return "object";
 }
 
-std::vector<int> road_user_clusters(const LidarScan& scan, const SceneSegments& segments,
-                                    const ClusterDetectorOptions& options) {
+std::vector<const char*> why_no_road_users(const LidarScan& scan, const SceneSegments& segments,
+                                           const ClusterDetectorOptions& options) {
   const bool has_ground = segments.ground.status == GroundStatus::found;
   const ViewEdge view_edge(scan, segments.horizontal_step_deg);
-  std::vector<int> found;
+  std::vector<const char*> why;
   for (std::size_t i = 0; i < segments.clusters.size(); ++i) {
     const auto& cluster = segments.clusters[i];
     const ClusterExtent& extent = segments.extents[i];
     const double ring_m = std::tan(segments.vertical_step_deg * kDegree) * extent.centroid.norm();
-    if (!has_size_of_road_user(extent, cluster.size(), has_ground, ring_m,
-                               view_edge.cuts_off(cluster), options))
-      continue;
+    why.push_back(why_not_by_size(extent, cluster.size(), has_ground, ring_m,
+                                  view_edge.cuts_off(cluster), options));
     // The ring below may just have missed it.
-    if (has_ground && extent.bottom > options.max_bottom + ring_m &&
+    if (why.back() == nullptr && has_ground && extent.bottom > options.max_bottom + ring_m &&
         !foot_is_hidden(scan, segments.ground, cluster))
-      continue;
-    found.push_back(static_cast<int>(i));
+      why.back() = "above_the_ground";
   }
+  return why;
+}
+
+std::vector<int> road_user_clusters(const LidarScan& scan, const SceneSegments& segments,
+                                    const ClusterDetectorOptions& options) {
+  const auto why = why_no_road_users(scan, segments, options);
+  std::vector<int> found;
+  for (std::size_t i = 0; i < why.size(); ++i)
+    if (why[i] == nullptr) found.push_back(static_cast<int>(i));
   return found;
 }
 
