@@ -206,7 +206,7 @@ class Documenter : public SettingVisitor {
 // of the question; the points are moved, no more.
 void leave_the_picture_alone(Config& config) {
   config.resample = "none";
-  config.point_tracks.off_edges = false;
+  config.point_tracks.own_surface = false;
   config.ego_motion.fuse = false;
   config.object_motion.world_tracks = false;
   config.object_motion.picture.min_points = 20;

@@ -182,8 +182,8 @@ void visit_vision(Config& c, SettingVisitor& v) {
   v.integer("num_static_points", c.static_points.max_points, {20, 5000},
             "for ego-motion from the camera");
   v.integer("border_px", p.border_px, kNotNegative, "distance kept from the picture's border");
-  v.flag("off_edges", p.off_edges,
-         "patches of points on depth edges lie a little beside them, on their object");
+  v.flag("own_surface", p.own_surface,
+         "patches are compared where they show their object, not what is before or behind it");
   KltOptions& k = c.klt;
   v.section("klt", "Following points from image to image (Kanade-Lucas-Tomasi).");
   v.integer("window_px", k.window_px, {5, 63, /*odd=*/true}, "side of the patch, odd");

@@ -31,25 +31,22 @@ FollowedObject followed_object(const ScanObject& object, const ObjectTrack& trac
   return followed;
 }
 
-// The motion over ground of what keeps its place before the vehicle.
-Twist motion_with_us(const Pose& T_lidar_t_lidar_k, const Eigen::Vector3d& centroid) {
-  Twist motion = Twist::Zero();
-  motion.segment<2>(3) = (T_lidar_t_lidar_k.inverse() * centroid - centroid).head<2>();
-  return motion;
-}
-
-// Ways from which an object's points may be found on the next picture: as expected, parked, and
-// with us, the likeliest first; those that lead to the same pixels count once.
-std::vector<Twist> motions_to_try(bool moves, const Twist& expected, const Twist& with_us,
-                                  double near_m) {
-  const Twist parked = Twist::Zero();
-  std::vector<Twist> motions;
-  for (const Twist& motion : {moves ? expected : parked, moves ? parked : expected, with_us})
-    if (std::none_of(motions.begin(), motions.end(), [&](const Twist& other) {
-          return (other - motion).tail<3>().norm() < near_m;
-        }))
-      motions.push_back(motion);
-  return motions;
+// Motions over ground from which an object's points may be found on the next picture: as expected,
+// and parked, the likelier first; one, if both lead to the same pixels.
+std::vector<Twist> motions_to_try(const ObjectTrack& track, const ScanObject& object,
+                                  const Eigen::Matrix3d& R_rest_k, Stamp instant, double focal_px,
+                                  const Config& config) {
+  constexpr double kSamePatch = 0.3;
+  const TrackOptions& options = config.object_tracks;
+  const double patch_m = config.klt.window_px * std::max(1., object.centroid.norm()) / focal_px;
+  const TrackState now = track.ahead ? track.expected_at(instant, options.noise)
+                                     : predicted(track.latest, instant, options.noise);
+  const double log_odds = track.ahead ? track.ahead->log_odds : track.latest_log_odds;
+  const Twist expected = expected_motion(now, R_rest_k, 0, options).mean, parked = Twist::Zero();
+  if (!config.object_motion.world_tracks) return {expected};
+  const bool is_same = expected.tail<3>().norm() < kSamePatch * patch_m;
+  if (log_odds > 0) return is_same ? std::vector{expected} : std::vector{expected, parked};
+  return is_same ? std::vector{parked} : std::vector{parked, expected};
 }
 
 // Whether one of the expected motions explains most of the points.
@@ -64,28 +61,6 @@ bool is_explained(const std::vector<Observation>& seen, const Pose& T_camera_lid
     });
     return static_cast<double>(near) >= kMost * static_cast<double>(seen.size());
   });
-}
-
-// Where to look for an object, and by which motions over ground.
-Ways ways_of(const ObjectTrack& track, const ScanObject& object, const Eigen::Matrix3d& R_rest_k,
-             Stamp instant, const Pose& ego, double focal_px, const Config& config,
-             std::vector<Twist>& motions) {
-  constexpr double kSigmas = 2.5;  // of where it may be
-  constexpr double kSamePatch = 0.3;
-  const TrackOptions& options = config.object_tracks;
-  const double patch_m = config.klt.window_px * std::max(1., object.centroid.norm()) / focal_px;
-  const TrackState now = track.ahead ? track.expected_at(instant, options.noise)
-                                     : predicted(track.latest, instant, options.noise);
-  const double log_odds = track.ahead ? track.ahead->log_odds : track.latest_log_odds;
-  motions = motions_to_try(log_odds > 0 || !config.object_motion.world_tracks,
-                           expected_motion(now, R_rest_k, 0, options).mean,
-                           motion_with_us(ego, object.centroid), kSamePatch * patch_m);
-  if (!config.object_motion.world_tracks) motions.resize(1);
-  Ways ways;
-  for (const Twist& motion : motions) ways.T_mov.push_back(motion_pose(motion, object.centroid));
-  const double reach = kSigmas * std::sqrt(0.5 * now.covariance.topLeftCorner<2, 2>().trace());
-  if (reach > patch_m && config.object_motion.world_tracks) ways.reach_m = reach;
-  return ways;
 }
 
 }  // namespace
@@ -121,18 +96,16 @@ std::vector<ObjectOnPicture> follow_objects(CameraView& view, const Picture& pic
   const PreparedScan& key = objects.key;
   const std::size_t count = objects.track_of.size();
   std::vector<ObjectOnPicture> sights(count);
-  std::vector<Ways> ways(count);
-  for (std::size_t i = 0; i < count; ++i)
-    ways[i] = ways_of(objects.track(i), objects.object(i), key.T_rest_lidar.linear(),
-                      picture.instant, ego, view.camera.model.fx, config, sights[i].starts);
+  std::vector<std::vector<Pose>> ways(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const ScanObject& object = objects.object(i);
+    sights[i].starts = motions_to_try(objects.track(i), object, key.T_rest_lidar.linear(),
+                                      picture.instant, view.camera.model.fx, config);
+    for (const Twist& motion : sights[i].starts)
+      ways[i].push_back(motion_pose(motion, object.centroid));
+  }
   follow_ways(view, picture, T_camera_lidar_of(view.camera, key.scan.T_vehicle_lidar) * ego, ways,
               config.klt);
-  for (std::size_t i = 0; i < count; ++i)
-    for (std::size_t j = sights[i].starts.size(); j < ways[i].T_mov.size(); ++j) {
-      const Eigen::Vector3d& centroid = objects.object(i).centroid;
-      sights[i].starts.emplace_back(Twist::Zero());
-      sights[i].starts.back().tail<3>() = ways[i].T_mov[j] * centroid - centroid;
-    }
   return sights;
 }
 
@@ -151,6 +124,7 @@ void note_sights(std::vector<ObjectOnPicture>& sights, const CameraView& view,
     const FollowedObject& object = view.objects[i];
     const auto pairs = correspondences_of(view.points, static_cast<int>(i));
     sight.seen = observe(pairs, view.camera.model);
+    weigh_by_texture(sight.seen, pairs, config.object_tracks.points.sigma_px);
     const double until_anchor = view.anchor_dt == 0 ? 0 : view.anchor_dt - object.time_s;
     sight.view = {T_camera_lidar_k, dt - object.time_s - until_anchor,
                   exp_se3(Twist(object.rate * until_anchor)) * object.centroid - object.centroid};

@@ -3,43 +3,29 @@
 #include "lidar_upsampling/view_points.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace lidar_upsampling {
 namespace {
 
-// What is followed of a candidate: patches on the picture, and the places that they show, by how
-// far they lie beside the scan's points.
-struct Patches {
-  std::vector<ProjectedPoint> at;
-  std::vector<Eigen::Vector3d> beside;  ///< m, lidar frame at k
-};
+// Where points of the object were on the anchor.
+std::vector<ProjectedPoint> at_anchor(std::vector<ProjectedPoint> points,
+                                      const FollowedObject& object, const CameraView& view,
+                                      const LidarScan& scan, const Pose& T_camera_lidar_a) {
+  const double until_anchor = view.anchor_dt - object.time_s;
+  if (until_anchor == 0 || object.rate.isZero()) return points;
+  return reprojected(points, scan, view.camera.model,
+                     T_camera_lidar_a * exp_se3(Twist(object.rate * until_anchor)));
+}
 
-Patches patches_of(const FollowedObject& candidate, const AnchoredScan& anchored,
-                   const CameraView& view, const LidarScan& scan, const Pose& T_camera_lidar_a,
-                   const Config& config) {
-  const CameraModel& camera = view.camera.model;
-  const double until_anchor = view.anchor_dt - candidate.time_s;
-  const int enough = 2 * config.object_motion.picture.min_points;
-  Patches patches{followable_points(anchored, candidate.points, enough), {}};
-  const bool on_edges =
-      std::any_of(patches.at.begin(), patches.at.end(), [&](const ProjectedPoint& point) {
-        return anchored.on_edge[anchored.position[point.index]] != 0;
-      });
-  Pose T_camera_a_lidar_k = T_camera_lidar_a;
-  if (until_anchor != 0 && !candidate.rate.isZero()) {
-    T_camera_a_lidar_k = T_camera_lidar_a * exp_se3(Twist(candidate.rate * until_anchor));
-    patches.at = reprojected(patches.at, scan, camera, T_camera_a_lidar_k);
-  }
-  if (!on_edges || !config.point_tracks.off_edges) return patches;
-  const std::vector<cv::Point2f> shifts = inward_shifts(anchored, candidate.points, patches.at);
-  for (std::size_t i = 0; i < shifts.size(); ++i) {
-    ProjectedPoint& at = patches.at[i];
-    at.u += shifts[i].x;
-    at.v += shifts[i].y;
-    const Eigen::Vector3d aside(shifts[i].x / camera.fx, shifts[i].y / camera.fy, 0);
-    patches.beside.emplace_back(T_camera_a_lidar_k.linear().transpose() * (at.depth * aside));
-  }
-  return patches;
+SurfaceMap surfaces_of(const AnchoredScan& anchored, const CameraView& view, const LidarScan& scan,
+                       const Pose& T_camera_lidar_a, const cv::Size& size) {
+  constexpr int kAll = std::numeric_limits<int>::max();
+  std::vector<std::vector<ProjectedPoint>> objects;
+  for (const FollowedObject& object : view.objects)
+    objects.push_back(at_anchor(followable_points(anchored, object.points, kAll), object, view,
+                                scan, T_camera_lidar_a));
+  return surfaces_on(anchored, objects, size);
 }
 
 void add_static_points(PointTracks& tracks, const AnchoredScan& anchored,
@@ -63,12 +49,16 @@ void choose_points(CameraView& view, const AnchoredScan& anchored, const cv::Mat
                    const LidarScan& scan, const Pose& T_camera_lidar_a, bool with_static_points,
                    const Config& config) {
   const PointTrackOptions& options = config.point_tracks;
+  const int enough = 2 * config.object_motion.picture.min_points;
+  if (options.own_surface)
+    view.points.surfaces = surfaces_of(anchored, view, scan, T_camera_lidar_a, texture.size());
   for (std::size_t i = 0; i < view.objects.size(); ++i) {
-    const Patches patches =
-        patches_of(view.objects[i], anchored, view, scan, T_camera_lidar_a, config);
+    const FollowedObject& object = view.objects[i];
+    const auto points = at_anchor(followable_points(anchored, object.points, enough), object, view,
+                                  scan, T_camera_lidar_a);
     const auto chosen =
-        choose_spread(patches.at, texture, options.max_points_per_object, options.border_px);
-    add_points(view.points, patches.at, chosen, scan, static_cast<int>(i), patches.beside);
+        choose_spread(points, texture, options.max_points_per_object, options.border_px);
+    add_points(view.points, points, chosen, scan, static_cast<int>(i));
   }
   if (with_static_points)
     add_static_points(view.points, anchored, view.objects, scan, texture, config.static_points);

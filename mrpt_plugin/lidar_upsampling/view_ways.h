@@ -8,18 +8,11 @@
 
 namespace lidar_upsampling {
 
-/// Where to look for an object's points on the next picture.
-struct Ways {
-  std::vector<Pose> T_mov;  ///< motions over ground, the likeliest first
-  double reach_m = 0;       ///< how far around the first it may also be, level
-};
-
-/// @brief Follows all points to the next picture, those of an object from each of several ways it
-/// may have gone; the one on which most points are found again counts. Where few are, the likeliest
-/// place is sought on smaller pictures first.
+/// @brief Follows all points to the next picture, those of an object from each of several motions
+/// over ground that it may have made; the one where the picture looks most like it counts.
 /// @param T_camera_t_lidar_k ego-motion until the picture included.
-/// @param ways of each candidate; what the search has found is added.
+/// @param ways motions of each object, the likeliest first.
 void follow_ways(CameraView& view, const Picture& picture, const Pose& T_camera_t_lidar_k,
-                 std::vector<Ways>& ways, const KltOptions& options);
+                 const std::vector<std::vector<Pose>>& ways, const KltOptions& options);
 
 }  // namespace lidar_upsampling

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "lidar_upsampling/objects/beam_step.h"
 #include "lidar_upsampling/units.h"
@@ -11,51 +12,13 @@
 namespace lidar_upsampling {
 namespace {
 
-constexpr float kPatchReach_px = 8;
+constexpr std::int16_t kOthers = std::numeric_limits<std::int16_t>::max();  // no object's surface
 
-// What a patch shows of its object, and of others: on which side.
-class PatchContent {
- public:
-  void add(const ProjectedPoint& centre, const ProjectedPoint& point, bool is_own) {
-    const cv::Point2f d(point.u - centre.u, point.v - centre.v);
-    if (std::abs(d.x) >= kPatchReach_px || std::abs(d.y) >= kPatchReach_px) return;
-    const float weight =
-        (1 - std::abs(d.x) / kPatchReach_px) * (1 - std::abs(d.y) / kPatchReach_px);
-    all_ += weight;
-    if (!is_own) others_ += weight * d;
-  }
-
-  // In the middle between two sides there is nowhere to go; too far, and the object ends.
-  [[nodiscard]] cv::Point2f shift() const {
-    constexpr float kGain = 1.5, kFarthest_px = 4;
-    const cv::Point2f away = all_ > 0 ? others_ * (-kGain / all_) : cv::Point2f();
-    const float length = std::hypot(away.x, away.y);
-    return length > kFarthest_px ? away * (kFarthest_px / length) : away;
-  }
-
- private:
-  float all_ = 0;
-  cv::Point2f others_;
+/// A point with the surface that it shows.
+struct Spot {
+  ProjectedPoint at;
+  std::int16_t label;
 };
-
-// Points that the object's patches may show beside it.
-std::vector<ProjectedPoint> others_around(const AnchoredScan& anchored,
-                                          const std::vector<int>& object) {
-  std::vector<std::uint8_t> is_own(anchored.points.size(), 0);
-  Box2d reach = Box2d::around_nothing();
-  for (const int i : object) {
-    if (anchored.position[i] < 0) continue;
-    is_own[anchored.position[i]] = 1;
-    const ProjectedPoint& point = anchored.points[anchored.position[i]];
-    reach.extend(point.u - kPatchReach_px, point.v - kPatchReach_px);
-    reach.extend(point.u + kPatchReach_px, point.v + kPatchReach_px);
-  }
-  std::vector<ProjectedPoint> others;
-  for (std::size_t i = 0; i < is_own.size(); ++i)
-    if (is_own[i] == 0 && reach.contains(anchored.points[i].u, anchored.points[i].v))
-      others.push_back(anchored.points[i]);
-  return others;
-}
 
 }  // namespace
 
@@ -111,23 +74,6 @@ std::vector<ProjectedPoint> followable_points(const AnchoredScan& anchored,
   return static_cast<int>(inner.size()) >= min_points ? inner : all;
 }
 
-std::vector<cv::Point2f> inward_shifts(const AnchoredScan& anchored, const std::vector<int>& object,
-                                       const std::vector<ProjectedPoint>& points) {
-  const std::vector<ProjectedPoint> others = others_around(anchored, object);
-  std::vector<cv::Point2f> shifts(points.size());
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const int position = anchored.position[points[i].index];
-    if (anchored.on_edge[position] == 0) continue;
-    PatchContent content;
-    for (const int own : object)
-      if (const int at = anchored.position[own]; at >= 0)
-        content.add(anchored.points[position], anchored.points[at], true);
-    for (const ProjectedPoint& other : others) content.add(anchored.points[position], other, false);
-    shifts[i] = content.shift();
-  }
-  return shifts;
-}
-
 std::vector<ProjectedPoint> reprojected(const std::vector<ProjectedPoint>& points,
                                         const LidarScan& scan, const CameraModel& camera,
                                         const Pose& T_camera_a_lidar_k) {
@@ -141,6 +87,36 @@ std::vector<ProjectedPoint> reprojected(const std::vector<ProjectedPoint>& point
     moved.push_back(point);
   }
   return moved;
+}
+
+SurfaceMap surfaces_on(const AnchoredScan& anchored,
+                       const std::vector<std::vector<ProjectedPoint>>& objects,
+                       const cv::Size& size) {
+  std::vector<std::uint8_t> is_other(anchored.points.size(), 1);
+  std::vector<Spot> spots;
+  for (std::size_t i = 0; i < objects.size(); ++i) {
+    for (const ProjectedPoint& point : objects[i]) {
+      spots.push_back({point, static_cast<std::int16_t>(std::min<std::size_t>(i, kOthers - 1))});
+      is_other[anchored.position[point.index]] = 0;
+    }
+  }
+  for (std::size_t i = 0; i < is_other.size(); ++i)
+    if (is_other[i] != 0 && anchored.hidden[i] == 0) spots.push_back({anchored.points[i], kOthers});
+  // What is near is painted over what is behind it.
+  std::stable_sort(spots.begin(), spots.end(),
+                   [](const Spot& a, const Spot& b) { return a.at.depth > b.at.depth; });
+  SurfaceMap map{cv::Mat(size, CV_16S, cv::Scalar(SurfaceMap::kUnknown))};
+  const cv::Rect picture({}, size);
+  // Its edge may lie anywhere until the next ring and azimuth step; the neighbourhood holds them
+  // with 1.3 and 2.6 times the room.
+  const double half_width = anchored.sampling.half_width_px / 2.6;
+  const double half_height = anchored.sampling.half_height_px / 1.3;
+  for (const Spot& spot : spots) {
+    const cv::Point low(cvRound(spot.at.u - half_width), cvRound(spot.at.v - half_height));
+    const cv::Point high(cvRound(spot.at.u + half_width), cvRound(spot.at.v + half_height));
+    map.label(cv::Rect(low, high + cv::Point(1, 1)) & picture).setTo(spot.label);
+  }
+  return map;
 }
 
 }  // namespace lidar_upsampling

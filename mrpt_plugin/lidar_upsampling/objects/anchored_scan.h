@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "lidar_upsampling/types.h"
+#include "lidar_upsampling/vision/patch_alignment.h"
 #include "lidar_upsampling/vision/visibility.h"
 
 namespace lidar_upsampling {
@@ -38,19 +39,19 @@ struct AnchoredScan {
                                                             const std::vector<int>& object,
                                                             int min_points);
 
-/// @brief By how many pixels the patch of each point on a depth edge is to lie beside it, away from
-/// what is before or behind the object: a patch that shows two things that move apart follows
-/// either.
-/// @param object, points indices into the scan, and those of them that are to be followed.
-[[nodiscard]] std::vector<cv::Point2f> inward_shifts(const AnchoredScan& anchored,
-                                                     const std::vector<int>& object,
-                                                     const std::vector<ProjectedPoint>& points);
-
 /// @brief Moves the points to where a moving object was at the anchor's instant, which is not the
 /// scan's; points that leave the picture are dropped.
 [[nodiscard]] std::vector<ProjectedPoint> reprojected(const std::vector<ProjectedPoint>& points,
                                                       const LidarScan& scan,
                                                       const CameraModel& camera,
                                                       const Pose& T_camera_a_lidar_k);
+
+/// @brief Which surface each pixel shows: that of the nearest point whose place it may be, a ring
+/// and an azimuth step around it.
+/// @param objects points of each on the picture, where they are at the anchor; their positions are
+/// the labels. All others are of one more surface.
+[[nodiscard]] SurfaceMap surfaces_on(const AnchoredScan& anchored,
+                                     const std::vector<std::vector<ProjectedPoint>>& objects,
+                                     const cv::Size& size);
 
 }  // namespace lidar_upsampling

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace lidar_upsampling {
 
@@ -48,18 +49,18 @@ std::vector<int> choose_spread(const std::vector<ProjectedPoint>& candidates,
 }
 
 void add_points(PointTracks& tracks, const std::vector<ProjectedPoint>& projected,
-                const std::vector<int>& chosen, const LidarScan& key_scan, int owner,
-                const std::vector<Eigen::Vector3d>& beside) {
+                const std::vector<int>& chosen, const LidarScan& key_scan, int owner) {
   for (const int i : chosen) {
     const ProjectedPoint& point = projected[i];
     tracks.scan_index.push_back(point.index);
     tracks.point.emplace_back(key_scan.points[point.index].cast<double>());
     tracks.owner.push_back(owner);
     tracks.anchor_px.emplace_back(point.u, point.v);
-    if (!beside.empty()) tracks.point.back() += beside[i];
     tracks.last_px.emplace_back(point.u, point.v);
     tracks.predicted_px.emplace_back(point.u, point.v);
     tracks.found.push_back(1);
+    tracks.residual.push_back(0);
+    tracks.covariance.emplace_back(Eigen::Matrix2f::Zero());
   }
 }
 
@@ -71,19 +72,35 @@ void follow_points(PointTracks& tracks, const ImagePyramid& anchor, const ImageP
     guesses[i] = tracks.found[i] != 0
                      ? tracks.last_px[i] + (predicted_px[i] - tracks.predicted_px[i])
                      : predicted_px[i];
-  const KltResult result = track_points(anchor, next, tracks.anchor_px, guesses, options);
+  std::vector<std::size_t> all(tracks.size());
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  const PointLabels labels = labels_of(tracks, all);
+  const KltResult result = track_points(anchor, next, tracks.anchor_px, guesses, options, &labels);
   for (std::size_t i = 0; i < guesses.size(); ++i) {
     tracks.found[i] = result.tracked[i];
+    tracks.residual[i] = result.residual[i];
+    tracks.covariance[i] = result.covariance[i];
     if (result.tracked[i] != 0) tracks.last_px[i] = result.points[i];
   }
   tracks.predicted_px = predicted_px;
+}
+
+PointLabels labels_of(const PointTracks& tracks, const std::vector<std::size_t>& which) {
+  PointLabels labels{tracks.surfaces, {}};
+  for (const std::size_t i : which)
+    labels.of_point.push_back(tracks.owner[i] == kStaticOwner
+                                  ? SurfaceMap::kUnknown
+                                  : static_cast<std::int16_t>(tracks.owner[i]));
+  return labels;
 }
 
 std::vector<Correspondence> correspondences_of(const PointTracks& tracks, int owner) {
   std::vector<Correspondence> pairs;
   for (std::size_t i = 0; i < tracks.size(); ++i)
     if (tracks.owner[i] == owner && tracks.found[i] != 0)
-      pairs.push_back({tracks.point[i], {tracks.last_px[i].x, tracks.last_px[i].y}});
+      pairs.push_back({tracks.point[i],
+                       {tracks.last_px[i].x, tracks.last_px[i].y},
+                       tracks.covariance[i].cast<double>()});
   return pairs;
 }
 

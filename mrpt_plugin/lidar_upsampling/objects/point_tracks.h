@@ -14,8 +14,8 @@ namespace lidar_upsampling {
 
 struct PointTrackOptions {
   int max_points_per_object = 150;
-  int border_px = 8;      ///< nearer to the picture's border no point is taken
-  bool off_edges = true;  ///< patches of points on depth edges lie beside them; off: the paper
+  int border_px = 8;        ///< nearer to the picture's border no point is taken
+  bool own_surface = true;  ///< patches are compared where they show their object; off: the paper
 };
 
 /// The static scene as an owner of points.
@@ -24,13 +24,16 @@ inline constexpr int kStaticOwner = -1;
 /// @brief Points of the key scan put on the anchor image, and where they have gone since. One KLT
 /// call follows those of all objects, so that the pyramids are shared.
 struct PointTracks {
-  std::vector<int> scan_index;            ///< of each, in the key scan
-  std::vector<Eigen::Vector3d> point;     ///< lidar frame at k
-  std::vector<int> owner;                 ///< the object candidate, or kStaticOwner
-  std::vector<cv::Point2f> anchor_px;     ///< where it was put
-  std::vector<cv::Point2f> last_px;       ///< where it was last found
-  std::vector<cv::Point2f> predicted_px;  ///< where it was expected then
-  std::vector<std::uint8_t> found;        ///< on the last image
+  std::vector<int> scan_index;              ///< of each, in the key scan
+  std::vector<Eigen::Vector3d> point;       ///< lidar frame at k
+  std::vector<int> owner;                   ///< the object candidate, or kStaticOwner
+  std::vector<cv::Point2f> anchor_px;       ///< where it was put
+  std::vector<cv::Point2f> last_px;         ///< where it was last found
+  std::vector<cv::Point2f> predicted_px;    ///< where it was expected then
+  std::vector<std::uint8_t> found;          ///< on the last image
+  std::vector<float> residual;              ///< there, gray levels
+  std::vector<Eigen::Matrix2f> covariance;  ///< of last_px, px^2, by its texture
+  SurfaceMap surfaces;                      ///< of the anchor, by owner; empty: not known
 
   [[nodiscard]] std::size_t size() const { return point.size(); }
 };
@@ -43,17 +46,18 @@ struct PointTracks {
                                              const cv::Mat& texture, int max_count, int border_px);
 
 /// @brief Adds points at their projections on the anchor image.
-/// @param beside of each, by how far what is followed lies beside the scan's point, metres, lidar
-/// frame at k; or none.
 void add_points(PointTracks& tracks, const std::vector<ProjectedPoint>& projected,
-                const std::vector<int>& chosen, const LidarScan& key_scan, int owner,
-                const std::vector<Eigen::Vector3d>& beside = {});
+                const std::vector<int>& chosen, const LidarScan& key_scan, int owner);
 
 /// @brief Finds the points on the next image. The picture around each is always the anchor's, so no
 /// drift adds up over images; the search starts where the motion since the last image leads.
 /// @param predicted_px where each point is expected by the motion model.
 void follow_points(PointTracks& tracks, const ImagePyramid& anchor, const ImagePyramid& next,
                    const std::vector<cv::Point2f>& predicted_px, const KltOptions& options);
+
+/// The surfaces that some of the points belong to.
+[[nodiscard]] PointLabels labels_of(const PointTracks& tracks,
+                                    const std::vector<std::size_t>& which);
 
 /// The found points of one owner.
 [[nodiscard]] std::vector<Correspondence> correspondences_of(const PointTracks& tracks, int owner);

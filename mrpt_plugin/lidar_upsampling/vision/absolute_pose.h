@@ -15,6 +15,8 @@ namespace lidar_upsampling {
 struct Correspondence {
   Eigen::Vector3d point_in_source;  ///< metres
   Eigen::Vector2d pixel;            ///< on the picture as taken, lens distortion included
+  /// Of the pixel, px^2, as the patch's texture lets it slide; beside what all points err by.
+  Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();
 };
 
 struct AbsolutePoseOptions {

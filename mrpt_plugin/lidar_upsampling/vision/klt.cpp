@@ -10,6 +10,7 @@
 #include <limits>
 #include <opencv2/imgproc.hpp>
 #include <opencv2/video/tracking.hpp>
+#include <optional>
 #include <stdexcept>
 #include <string>
 
@@ -70,24 +71,43 @@ std::vector<float> there_and_back(const ImagePyramid& from, const ImagePyramid& 
   return distance;
 }
 
+/// What aligns better, from where Lucas-Kanade has ended or, of a patch that shows others, too,
+/// which pull it along, from the guess.
+std::optional<Alignment> aligned(const PatchAligner& aligner, const cv::Mat& from,
+                                 const cv::Mat& to, const cv::Point2f& point,
+                                 const std::optional<cv::Point2f>& end, const cv::Point2f& guess,
+                                 const std::vector<float>& own) {
+  std::optional<Alignment> best;
+  if (end) best = aligner.align(from, to, point, *end, own);
+  if (own.empty()) return best;
+  const auto other = aligner.align(from, to, point, guess, own);
+  return other && (!best || other->residual < best->residual) ? other : best;
+}
+
 void align_all(const ImagePyramid& from, const ImagePyramid& to,
-               const std::vector<cv::Point2f>& points, const AlignmentOptions& options,
-               KltResult& result) {
+               const std::vector<cv::Point2f>& points, const std::vector<cv::Point2f>& guesses,
+               const AlignmentOptions& options, const PointLabels* labels, KltResult& result) {
   const PatchAligner aligner(options);
   constexpr std::size_t kGrainSize = 32;
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, points.size(), kGrainSize),
-                    [&](const tbb::blocked_range<std::size_t>& range) {
-                      for (std::size_t i = range.begin(); i < range.end(); ++i) {
-                        if (result.tracked[i] == 0) continue;
-                        const auto aligned =
-                            aligner.align(from.levels().front(), to.levels().front(), points[i],
-                                          result.points[i]);
-                        result.tracked[i] = aligned ? 1 : 0;
-                        if (!aligned) continue;
-                        result.points[i] = aligned->point;
-                        result.residual[i] = aligned->residual;
-                      }
-                    });
+  tbb::parallel_for(
+      tbb::blocked_range<std::size_t>(0, points.size(), kGrainSize),
+      [&](const tbb::blocked_range<std::size_t>& range) {
+        for (std::size_t i = range.begin(); i < range.end(); ++i) {
+          std::vector<float> own;
+          if (labels != nullptr)
+            own = aligner.own_pixels(labels->surfaces, labels->of_point[i], points[i]);
+          if (result.tracked[i] == 0 && own.empty()) continue;
+          std::optional<cv::Point2f> end;
+          if (result.tracked[i] != 0) end = result.points[i];
+          const auto found = aligned(aligner, from.levels().front(), to.levels().front(), points[i],
+                                     end, guesses[i], own);
+          result.tracked[i] = found ? 1 : 0;
+          if (!found) continue;
+          result.points[i] = found->point;
+          result.residual[i] = found->residual;
+          result.covariance[i] = found->covariance;
+        }
+      });
 }
 
 void check_fits(const ImagePyramid& pyramid, const KltOptions& options) {
@@ -146,7 +166,8 @@ ImagePyramid::ImagePyramid(const cv::Mat& gray, const KltOptions& options)
 
 KltResult track_points(const ImagePyramid& from, const ImagePyramid& to,
                        const std::vector<cv::Point2f>& points,
-                       const std::vector<cv::Point2f>& guesses, const KltOptions& options) {
+                       const std::vector<cv::Point2f>& guesses, const KltOptions& options,
+                       const PointLabels* labels) {
   check(options);
   check_fits(from, options);
   check_fits(to, options);
@@ -162,8 +183,8 @@ KltResult track_points(const ImagePyramid& from, const ImagePyramid& to,
   }
   KltResult result;
   if (points.empty()) return result;
-  Flow forward = track_one_way(from, to, points, guesses.empty() ? points : guesses,
-                               options.pyramid_levels, options);
+  const std::vector<cv::Point2f>& starts = guesses.empty() ? points : guesses;
+  Flow forward = track_one_way(from, to, points, starts, options.pyramid_levels, options);
   result.forward_backward_px = there_and_back(from, to, points, forward, options);
   result.tracked.resize(points.size());
   for (std::size_t i = 0; i < points.size(); ++i)
@@ -172,7 +193,8 @@ KltResult track_points(const ImagePyramid& from, const ImagePyramid& to,
                                                                                              : 0;
   result.points = std::move(forward.points);
   result.residual = std::move(forward.residual);
-  if (options.align) align_all(from, to, points, options.alignment, result);
+  result.covariance.assign(points.size(), Eigen::Matrix2f::Zero());
+  if (options.align) align_all(from, to, points, starts, options.alignment, labels, result);
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (result.residual[i] > static_cast<float>(options.max_residual)) result.tracked[i] = 0;
   }

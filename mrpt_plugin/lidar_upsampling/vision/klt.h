@@ -56,6 +56,13 @@ struct KltResult {
   std::vector<std::uint8_t> tracked;
   std::vector<float> forward_backward_px;
   std::vector<float> residual;  ///< mean absolute difference of the patches, gray levels
+  std::vector<Eigen::Matrix2f> covariance;  ///< px^2, as Alignment's; zero without it
+};
+
+/// Of which surface of the first picture each point is.
+struct PointLabels {
+  const SurfaceMap& surfaces;
+  std::vector<std::int16_t> of_point;
 };
 
 /// @brief Follows points from one picture to another by pyramidal Lucas-Kanade (Bouguet 2001),
@@ -63,11 +70,14 @@ struct KltResult {
 /// tracked.
 /// @param points pixels on the first picture.
 /// @param guesses where they may be on the second; as many as points, or none.
+/// @param labels where patches show more than their own surface, only that is compared, from where
+/// Lucas-Kanade ends or from the guess, whichever fits better; null: patches show one surface.
 /// @throw std::invalid_argument empty pyramids, of different sizes or made for another window;
 /// guesses of another number.
 [[nodiscard]] KltResult track_points(const ImagePyramid& from, const ImagePyramid& to,
                                      const std::vector<cv::Point2f>& points,
                                      const std::vector<cv::Point2f>& guesses = {},
-                                     const KltOptions& options = {});
+                                     const KltOptions& options = {},
+                                     const PointLabels* labels = nullptr);
 
 }  // namespace lidar_upsampling

@@ -2,6 +2,7 @@
 // Copyright (c) 2026, the lidar_upsampling authors
 #include "lidar_upsampling/vision/observation.h"
 
+#include <Eigen/Eigenvalues>
 #include <limits>
 
 #include "lidar_upsampling/se3.h"
@@ -18,7 +19,8 @@ std::vector<Observation> observe(const std::vector<Correspondence>& corresponden
   std::vector<Observation> observations;
   observations.reserve(correspondences.size());
   for (std::size_t i = 0; i < correspondences.size(); ++i) {
-    const auto& [point, pixel] = correspondences[i];
+    const Eigen::Vector3d& point = correspondences[i].point_in_source;
+    const Eigen::Vector2d& pixel = correspondences[i].pixel;
     if (!point.allFinite() || !pixel.allFinite()) {
       throw std::invalid_argument("absolute pose: correspondence " + std::to_string(i) +
                                   " has a coordinate that is not a finite number");
@@ -32,6 +34,18 @@ std::vector<Observation> observe(const std::vector<Correspondence>& corresponden
                             static_cast<int>(i)});
   }
   return observations;
+}
+
+void weigh_by_texture(std::vector<Observation>& observations,
+                      const std::vector<Correspondence>& correspondences, double sigma_px) {
+  for (Observation& observation : observations) {
+    const Eigen::Matrix2d in_sigmas =
+        Eigen::Matrix2d::Identity() +
+        correspondences[observation.index].covariance / (sigma_px * sigma_px);
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(in_sigmas);
+    observation.pixel_by_normalised =
+        solver.operatorInverseSqrt() * observation.pixel_by_normalised;
+  }
 }
 
 double sq_reprojection_error(const Observation& observation, const Pose& T_camera_source) {

@@ -24,6 +24,11 @@ struct Observation {
 [[nodiscard]] std::vector<Observation> observe(const std::vector<Correspondence>& correspondences,
                                                const CameraModel& model);
 
+/// @brief Scales residuals so that they have `sigma_px` per axis where the patches' texture says
+/// less, too: along an edge, or where there is little, a patch slides and stays where it was put.
+void weigh_by_texture(std::vector<Observation>& observations,
+                      const std::vector<Correspondence>& correspondences, double sigma_px);
+
 /// @brief Squared pixel distance between observation and projection, exact for small ones; infinity
 /// behind the camera.
 [[nodiscard]] double sq_reprojection_error(const Observation& observation,

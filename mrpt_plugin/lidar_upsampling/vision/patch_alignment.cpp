@@ -172,13 +172,40 @@ PatchAligner::PatchAligner(const AlignmentOptions& options) : options_(options) 
   }
 }
 
+std::vector<float> PatchAligner::own_pixels(const SurfaceMap& surfaces, std::int16_t label,
+                                            const cv::Point2f& point) const {
+  if (surfaces.label.empty() || label == SurfaceMap::kUnknown) return {};
+  const int half = options_.window_px / 2;
+  const int left = cvRound(point.x) - half, top = cvRound(point.y) - half;
+  std::vector<float> own(weight_.size(), 1);
+  bool is_all_own = true;
+  for (int v = 0, i = 0; v <= 2 * half; ++v) {
+    for (int u = 0; u <= 2 * half; ++u, ++i) {
+      if (left + u < 0 || top + v < 0 || left + u >= surfaces.label.cols ||
+          top + v >= surfaces.label.rows)
+        continue;
+      const std::int16_t here = surfaces.label.at<std::int16_t>(top + v, left + u);
+      if (here == label || here == SurfaceMap::kUnknown) continue;
+      own[i] = 0;
+      is_all_own = false;
+    }
+  }
+  return is_all_own ? std::vector<float>{} : own;
+}
+
 std::optional<Alignment> PatchAligner::align(const cv::Mat& from, const cv::Mat& to,
-                                             const cv::Point2f& point,
-                                             const cv::Point2f& guess) const {
+                                             const cv::Point2f& point, const cv::Point2f& guess,
+                                             const std::vector<float>& own) const {
   const int half = options_.window_px / 2;
   const int size = static_cast<int>(weight_.size());
+  std::vector<float> weights = weight_;
+  for (std::size_t i = 0; i < own.size(); ++i) weights[i] *= own[i];
+  const Eigen::Map<const Eigen::ArrayXf> weight(weights.data(), size);
+  const Eigen::Map<const Eigen::ArrayXf> whole(weight_.data(), size);
+  const float weight_sum = weight.sum();
+  if (weight_sum < static_cast<float>(options_.min_own_share) * whole.sum()) return std::nullopt;
   Template templ;
-  if (!make_template(from, point, half, weight_, templ)) return std::nullopt;
+  if (!make_template(from, point, half, weights, templ)) return std::nullopt;
   const auto sq = [](double value) { return static_cast<float>(value * value); };
   Parameters prior;
   prior << 0, 0, Eigen::Vector4f::Constant(sq(options_.gray_sigma / options_.affine_sigma)),
@@ -190,7 +217,6 @@ std::optional<Alignment> PatchAligner::align(const cv::Mat& from, const cv::Mat&
 
   Parameters p = Parameters::Zero();
   Pixels warped;
-  const Eigen::Map<const Eigen::ArrayXf> weight(weight_.data(), size);
   const Eigen::Map<const Eigen::ArrayXf> gray(templ.gray.data(), size);
   const Eigen::Map<const Eigen::ArrayXf> contrast(templ.contrast.data(), size);
   float residual = 0;
@@ -207,7 +233,10 @@ std::optional<Alignment> PatchAligner::align(const cv::Mat& from, const cv::Mat&
     if (!(p.segment<4>(2).cwiseAbs().maxCoeff() < kMaxAffine)) return std::nullopt;
     if (step.head<2>().norm() < static_cast<float>(options_.epsilon_px)) break;
   }
-  return Alignment{guess + cv::Point2f(p[0], p[1]), residual / weight.sum()};
+  const Eigen::Matrix<float, 8, 2> by_shift =
+      solver.solve(Eigen::Matrix<float, 8, 8>::Identity().leftCols<2>());
+  return Alignment{guess + cv::Point2f(p[0], p[1]), residual / weight_sum,
+                   sq(options_.gray_sigma) * by_shift.topRows<2>()};
 }
 
 }  // namespace lidar_upsampling

@@ -2,6 +2,8 @@
 // Copyright (c) 2026, the lidar_upsampling authors
 #pragma once
 
+#include <Eigen/Core>
+#include <cstdint>
 #include <opencv2/core/mat.hpp>
 #include <opencv2/core/types.hpp>
 #include <optional>
@@ -17,11 +19,21 @@ struct AlignmentOptions {
   double affine_sigma = 0.08;    ///< expected change of a patch's shape, per entry of its matrix
   double gain_sigma = 0.2;       ///< expected change of contrast
   double gray_sigma = 4;         ///< expected noise, gray levels
+  double min_own_share = 0.2;    ///< of a patch, by weight: with less of its own surface it is lost
+};
+
+/// @brief Which surface the pixels of a picture show, so that a patch near a silhouette is compared
+/// where it shows its own: what lies before or behind moves otherwise.
+struct SurfaceMap {
+  static constexpr std::int16_t kUnknown = -1;  ///< counts as anybody's
+  cv::Mat label;  ///< CV_16S, of the picture's size; empty: nothing is known
 };
 
 struct Alignment {
   cv::Point2f point;   ///< on the second picture
   float residual = 0;  ///< mean absolute difference after the change of gain and bias, gray levels
+  /// Of the point, px^2, by the texture and `gray_sigma`, whatever the change of shape.
+  Eigen::Matrix2f covariance = Eigen::Matrix2f::Zero();
 };
 
 /// @brief Brings patches of one picture to lie on another by an affine warp with a change of gain
@@ -34,10 +46,17 @@ class PatchAligner {
 
   /// @param from, to CV_8UC1 pictures.
   /// @param guess where the point may be on `to`, within a pixel or two.
+  /// @param own of each pixel of the patch on `from`, row by row, 1 or 0: what is not its own is
+  /// not compared; empty: all of it is.
   /// @return none if the patch leaves a picture or the search does not settle.
   [[nodiscard]] std::optional<Alignment> align(const cv::Mat& from, const cv::Mat& to,
-                                               const cv::Point2f& point,
-                                               const cv::Point2f& guess) const;
+                                               const cv::Point2f& point, const cv::Point2f& guess,
+                                               const std::vector<float>& own = {}) const;
+
+  /// @brief What of a patch shows its own surface; all of it, if `label` is kUnknown.
+  /// @return empty if all does.
+  [[nodiscard]] std::vector<float> own_pixels(const SurfaceMap& surfaces, std::int16_t label,
+                                              const cv::Point2f& point) const;
 
  private:
   AlignmentOptions options_;
