@@ -71,6 +71,18 @@ TEST(Association, finds_a_mover_again_that_was_hidden_for_three_scans) {
   EXPECT_EQ(street.id(street.show(0.7, {car_at(30 - 1.5 * 7, 5)})[0]), id);
 }
 
+TEST(Association, finds_a_mover_again_of_which_a_sliver_comes_out_from_behind_another) {
+  Street street;
+  std::vector<int> seen;
+  for (int scan = 0; scan < 4; ++scan) seen = street.show(0.1 * scan, {car_at(30 - 1.5 * scan, 5)});
+  const int id = street.id(seen[0]);
+  street.show(0.4, {});
+  ScanObject sliver = car_at(30 - 1.5 * 5 - 1.7, 5);  // its front
+  sliver.points.resize(1);
+  sliver.length = 0.6;
+  EXPECT_EQ(street.id(street.show(0.5, {sliver})[0]), id);
+}
+
 TEST(Association, forgets_an_object_of_which_nothing_is_known_any_more) {
   Street street;
   street.show(0, {car_at(30, 5)});

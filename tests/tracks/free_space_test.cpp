@@ -10,31 +10,6 @@ namespace lidar_upsampling {
 namespace {
 
 using testing::street_with;
-using testing::vehicle;
-
-bool stood(float before_m, float now_m) {
-  const auto before = vehicle(before_m, 3), now = vehicle(now_m, 3);
-  const SeenSpace seen_before = street_with(before), seen_now = street_with(now);
-  const Eigen::Vector2d step(1.2, 0);  // as claimed
-  return was_there_then({now, seen_now}, step, Pose::Identity(), seen_before) &&
-         was_there_then({before, seen_before}, -step, Pose::Identity(), seen_now);
-}
-
-TEST(WasThereThen, who_is_seen_where_it_was_has_not_moved_whatever_registration_says) {
-  EXPECT_TRUE(stood(12, 12));
-}
-
-TEST(WasThereThen, who_has_left_or_taken_a_place_may_have_moved) {
-  EXPECT_FALSE(stood(12, 13.2F));
-  EXPECT_FALSE(stood(13.2F, 12));
-}
-
-TEST(WasThereThen, a_short_step_cannot_be_told) {
-  const auto object = vehicle(12, 3);
-  const SeenSpace seen = street_with(object);
-  EXPECT_TRUE(was_there_then({object, seen}, {1.2, 0}, Pose::Identity(), seen));
-  EXPECT_FALSE(was_there_then({object, seen}, {0.5, 0}, Pose::Identity(), seen));
-}
 
 // A wall to the left that two posts let a piece of be seen.
 TEST(EndsInSight, is_not_said_of_a_wall_that_a_post_hides_the_rest_of) {

@@ -110,6 +110,25 @@ TEST(MotionFit, is_as_uncertain_as_it_says_over_many_noisy_pictures) {
   EXPECT_NEAR(sum / (3 * kTrials), 1, 4 * std::sqrt(2. / (3 * kTrials)));
 }
 
+TEST(FitWithScatter, prefers_the_motion_about_which_points_scatter_less) {
+  // Half a pixel off is what is expected of any point, but none of these is off by that.
+  const Twist truth = step(0, 0.02);
+  ImageFactor image;
+  image.add({ahead(), 1, Eigen::Vector3d::Zero()}, seen_on(ahead(), car(), truth));
+  MotionExpected there, elsewhere = anywhere(1e-3);
+  there = elsewhere;
+  there.mean = truth;
+  const auto evidence = [&](const MotionExpected& prior) {
+    return fit_with_scatter(image, kCentroid, prior, {prior.mean}, {}).log_evidence;
+  };
+  const auto at_expected_scatter = [&](const MotionExpected& prior) {
+    return fit_motion(image, kCentroid, prior, {prior.mean}, PointNoise().sigma_px, {})
+        .log_evidence;
+  };
+  EXPECT_GT(evidence(there) - evidence(elsewhere),
+            2 * (at_expected_scatter(there) - at_expected_scatter(elsewhere)));
+}
+
 TEST(PointScatter, is_measured_on_the_points) {
   std::mt19937 random(5);
   std::normal_distribution<double> normal;

@@ -20,7 +20,9 @@ double log_ratio(const ObjectTrack& track, const ScanObject& object, const Track
   if (track.external_id >= 0 && object.external_id >= 0)
     return track.external_id == object.external_id ? kCertain : -kCertain;
   const Stamp instant = shifted(scan.scan.stamp, object.time_s);
-  const double shift = kLeast_m + options.extent_error * object.length;
+  // What only one of the scans shows of it shifts its centroid by a half.
+  const double shift = kLeast_m + options.extent_error * object.length +
+                       0.5 * std::abs(object.length - track.length);
   const Eigen::Matrix2d parked =
       shift * shift * Eigen::Matrix2d::Identity() + ego_error(scan, object.centroid);
   const Eigen::Vector3d step = scan.T_rest_lidar * object.centroid - track.centroid_rest;
@@ -35,8 +37,9 @@ double log_ratio(const ObjectTrack& track, const ScanObject& object, const Track
   const double here =
       is_moving * if_moving + (1 - is_moving) * gaussian_density(step.head<2>(), parked);
   const double size = static_cast<double>(object.points.size()) * object.centroid.squaredNorm();
+  // Cauchy: one that comes out from behind another shows anything from a sliver to all of it.
   return std::log(here / options.birth_density) -
-         0.5 * std::pow(std::log(size / track.size) / kSizeRatio, 2) -
+         std::log1p(std::pow(std::log(size / track.size) / kSizeRatio, 2)) -
          0.5 * std::pow(step.z() / kRise_m, 2);
 }
 

@@ -43,12 +43,6 @@ struct Fits {
   MotionFit moving, parked;
 };
 
-Fits fit_both(const ImageFactor& image, const MotionQuestion& question, const Expected& expected,
-              const std::vector<Twist>& starts, double sigma_px, const PointNoise& noise) {
-  return {fit_motion(image, question.centroid, expected.moving, starts, sigma_px, noise),
-          fit_motion(image, question.centroid, expected.parked, {Twist::Zero()}, sigma_px, noise)};
-}
-
 bool is_heard(const Fits& fits, std::size_t num_found, int num_followed,
               const TrackOptions& options) {
   const int agree = std::max(fits.moving.num_inliers, fits.parked.num_inliers);
@@ -93,20 +87,15 @@ double log_likelihood(double log_evidence, double log_of_any, const TrackOptions
 void hear(MotionAnswer& answer, const ImageFactor& image, const MotionQuestion& question,
           const Expected& expected, std::vector<Twist> starts, const TrackOptions& options) {
   starts.push_back(expected.moving.mean);
-  const Fits first =
-      fit_both(image, question, expected, starts, options.points.sigma_px, options.points);
-  const MotionFit& likelier = first.moving.cost < first.parked.cost ? first.moving : first.parked;
-  const double sigma_px =
-      measured_sigma_px(image, question.centroid, likelier.mean, options.points);
-  const Fits fits =
-      fit_both(image, question, expected, {first.moving.mean}, sigma_px, options.points);
+  const auto fit = [&](const MotionExpected& prior, const std::vector<Twist>& from) {
+    return fit_with_scatter(image, question.centroid, prior, from, options.points);
+  };
+  const Fits fits{fit(expected.moving, starts), fit(expected.parked, {Twist::Zero()})};
   if (!is_heard(fits, image.observations.size(), question.num_followed, options)) return;
   answer.is_seen = true;
   answer.moving = fits.moving;
   answer.parked = fits.parked;
-  const double of_any = fit_motion(image, question.centroid, expected.any, {fits.moving.mean},
-                                   sigma_px, options.points)
-                            .log_evidence;
+  const double of_any = fit(expected.any, {fits.moving.mean}).log_evidence;
   const double parked = log_likelihood(fits.parked.log_evidence, of_any, options);
   answer.log_odds +=
       log_likelihood(log_likelihood(fits.moving.log_evidence, of_any, options), parked, options) -

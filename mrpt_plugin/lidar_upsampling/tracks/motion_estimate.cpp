@@ -12,6 +12,7 @@ namespace lidar_upsampling {
 namespace {
 
 constexpr int kMaxIterations = 20;
+constexpr double kExpectedCounts = 4;  // points that the expected scatter counts as
 constexpr double kSqNearest_m = 1e-2;  // depth squared: what is nearer says nothing
 
 Eigen::Matrix3d rotation_of(const Eigen::Vector3d& w) {
@@ -165,7 +166,7 @@ MotionFit fit_motion(const ImageFactor& image, const Eigen::Vector3d& centroid,
 
 double measured_sigma_px(const ImageFactor& image, const Eigen::Vector3d& centroid,
                          const Twist& motion, const PointNoise& noise) {
-  constexpr double kExpectedCounts = 4, kFinest_px = 0.1;
+  constexpr double kFinest_px = 0.1;
   const Moved moved{rotation_of(motion.head<3>()), motion.tail<3>(), centroid};
   const double nu = noise.degrees_of_freedom;
   double sq_sigma = noise.sigma_px * noise.sigma_px;
@@ -182,6 +183,20 @@ double measured_sigma_px(const ImageFactor& image, const Eigen::Vector3d& centro
         (kExpectedCounts * noise.sigma_px * noise.sigma_px + sum) / (kExpectedCounts + count);
   }
   return std::max(kFinest_px, std::sqrt(sq_sigma));
+}
+
+MotionFit fit_with_scatter(const ImageFactor& image, const Eigen::Vector3d& centroid,
+                           const MotionExpected& prior, const std::vector<Twist>& starts,
+                           const PointNoise& noise) {
+  const MotionFit first = fit_motion(image, centroid, prior, starts, noise.sigma_px, noise);
+  const double sigma_px = measured_sigma_px(image, centroid, first.mean, noise);
+  MotionFit fit = fit_motion(image, centroid, prior, {first.mean}, sigma_px, noise);
+  const double sq_ratio = std::pow(sigma_px / noise.sigma_px, 2);
+  const auto count = static_cast<double>(image.observations.size());
+  fit.log_evidence -=
+      ((count + kExpectedCounts) * std::log(sq_ratio) + kExpectedCounts * (1 / sq_ratio - 1)) /
+      noise.points_per_observation;
+  return fit;
 }
 
 Pose motion_pose(const Twist& motion, const Eigen::Vector3d& centroid) {

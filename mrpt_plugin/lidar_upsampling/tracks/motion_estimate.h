@@ -66,6 +66,13 @@ struct MotionFit {
 [[nodiscard]] double measured_sigma_px(const ImageFactor& image, const Eigen::Vector3d& centroid,
                                        const Twist& motion, const PointNoise& noise);
 
+/// @brief The same with the scatter that the points show about this very motion: of two motions
+/// that one is likelier about which they scatter less. The evidence has the scatter in it, whose
+/// prior is that of a few points which scatter as expected.
+[[nodiscard]] MotionFit fit_with_scatter(const ImageFactor& image, const Eigen::Vector3d& centroid,
+                                         const MotionExpected& prior,
+                                         const std::vector<Twist>& starts, const PointNoise& noise);
+
 /// @brief T_mov, lidar frame at k.
 [[nodiscard]] Pose motion_pose(const Twist& motion, const Eigen::Vector3d& centroid);
 

@@ -47,6 +47,7 @@ void see_anew(ObjectTrack& track, const ScanObject& object, const TrackedScan& s
   track.T_rest_lidar = scan.T_rest_lidar;
   track.points = points_at(scan.scan, object.points);
   track.centroid_rest = scan.T_rest_lidar * object.centroid;
+  track.length = object.length;
   track.size = static_cast<double>(object.points.size()) * object.centroid.squaredNorm();
 }
 

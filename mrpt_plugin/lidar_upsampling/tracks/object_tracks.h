@@ -72,6 +72,7 @@ struct ObjectTrack {
   std::vector<Eigen::Vector3f> points;  ///< lidar frame then
   Eigen::Vector3d centroid_rest = Eigen::Vector3d::Zero();
   double size = 0;             ///< what is seen of it: points times squared range, as an area
+  double length = 0;           ///< m, of what is seen of it
   TrackState state;            ///< at `stamp`
   double log_odds = 0;         ///< of moving, at `stamp`
   TrackState latest;           ///< with what the last image since then told

@@ -2,9 +2,12 @@
 // Copyright (c) 2026, the lidar_upsampling authors
 #include "lidar_upsampling/tracks/scan_factor.h"
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <numeric>
 #include <optional>
 
 #include "lidar_upsampling/registration/surface.h"
@@ -53,18 +56,6 @@ PlanarStep centroid_step(const ObjectTrack& track, const ScanObject& object,
   return step;
 }
 
-/// Whether each scan saw a surface where the other one shows the object, so that it cannot have
-/// made the step.
-bool was_there_all_along(const TwoSights& sights, const PlanarStep& step, const TrackedScan& scan) {
-  if (sights.scans.seen_before == nullptr) return false;
-  const Eigen::Vector2d d = step.mean.head<2>();
-  const Pose& T_k_before = sights.scans.T_lidar_k_lidar_before;
-  return was_there_then({sights.scans.now, scan.seen}, sights.axes_now.transpose() * d,
-                        T_k_before.inverse(), *scan.seen_before) &&
-         was_there_then({sights.scans.before, *scan.seen_before},
-                        -(sights.axes_before.transpose() * d), T_k_before, scan.seen);
-}
-
 /// Whether some of its surface lies across a direction, and not along it.
 bool has_face_across(const std::vector<Eigen::Vector3f>& points, const Eigen::Vector2d& d) {
   constexpr float kAcross = 0.5F;  // within 60 degrees
@@ -89,6 +80,45 @@ bool tells_step(const TwoSights& sights, const Eigen::Vector2d& step, const Trac
   const Eigen::Vector2d d_now = sights.axes_now.transpose() * d;
   return (ends_in_sight(before, d_before) && ends_in_sight(now, d_now)) ||
          (ends_in_sight(before, -d_before) && ends_in_sight(now, -d_now));
+}
+
+/// Where the object ends on one side, m along a direction at rest; none if something hides its end.
+std::optional<double> end_of(const ObjectSight& object, const Pose& T_rest_lidar,
+                             const Eigen::Vector2d& axes_ahead, const Eigen::Vector2d& ahead) {
+  constexpr std::size_t kShare = 20;  // the outermost twentieth
+  if (!ends_in_sight(object, axes_ahead)) return {};
+  std::vector<double> along;
+  for (const Eigen::Vector3f& point : object.points)
+    along.push_back(ahead.dot((T_rest_lidar * point.cast<double>()).head<2>()));
+  const std::size_t count = 1 + along.size() / kShare;
+  std::nth_element(along.begin(), along.begin() + static_cast<std::ptrdiff_t>(count - 1),
+                   along.end(), std::greater<>());
+  return std::accumulate(along.begin(), along.begin() + static_cast<std::ptrdiff_t>(count), 0.) /
+         static_cast<double>(count);
+}
+
+/// A flat side slides under registration; its ends tell how far it has gone.
+/// @param longer m, by which one of the scans shows more of it: at either end, as likely.
+void join_ends(const ObjectTrack& track, const TwoSights& sights, const TrackedScan& scan,
+               double longer, PlanarStep& step) {
+  constexpr double kEnd_m = 0.1;  // how well two scans show the same end
+  const double sigma = std::hypot(kEnd_m, 0.5 * longer);
+  if (sights.scans.seen_before == nullptr) return;
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(
+      step.covariance.topLeftCorner<2, 2>());
+  const Eigen::Vector2d loosest = solver.eigenvectors().col(1);
+  for (const Eigen::Vector2d& ahead : {loosest, Eigen::Vector2d(-loosest)}) {
+    const auto before = end_of({sights.scans.before, *sights.scans.seen_before}, track.T_rest_lidar,
+                               sights.axes_before.transpose() * ahead, ahead);
+    const auto now = end_of({sights.scans.now, scan.seen}, scan.T_rest_lidar,
+                            sights.axes_now.transpose() * ahead, ahead);
+    if (!before || !now) continue;
+    const Eigen::Vector3d direction(ahead.x(), ahead.y(), 0);
+    const Eigen::Vector3d gain =
+        step.covariance * direction / (direction.dot(step.covariance * direction) + sigma * sigma);
+    step.mean += gain * (*now - *before - direction.dot(step.mean));
+    step.covariance -= gain * direction.transpose() * step.covariance;
+  }
 }
 
 /// Likelihoods of a step. A registration gone astray leads anywhere or, of what moves, sticks to
@@ -120,19 +150,13 @@ class StepLikelihoods {
 };
 
 /// What the scans tell of the step, the ego-motion's error included.
-struct MeasuredStep : PlanarStep {
-  bool was_there = false;  ///< each scan saw a surface where the other one shows the object
-};
-
-MeasuredStep measured_step(const ObjectTrack& track, const ScanObject& object,
-                           const TrackedScan& scan, const TrackState& expected,
-                           const TrackOptions& options) {
+PlanarStep measured_step(const ObjectTrack& track, const ScanObject& object,
+                         const TrackedScan& scan, const TrackState& expected,
+                         const TrackOptions& options) {
   const TwoSights sights = two_sights(track, object, scan, expected);
   const auto registered = registered_step(sights.scans, scan.T_rest_lidar.linear());
-  MeasuredStep step;
-  static_cast<PlanarStep&>(step) =
-      registered ? *registered : centroid_step(track, object, scan, options);
-  step.was_there = registered && was_there_all_along(sights, step, scan);
+  PlanarStep step = registered ? *registered : centroid_step(track, object, scan, options);
+  join_ends(track, sights, scan, object.length - track.length, step);
   const Eigen::Vector2d along = step.mean.head<2>();
   if (!tells_step(sights, along, scan))
     step.covariance.topLeftCorner<2, 2>() += along * along.transpose();
@@ -142,9 +166,8 @@ MeasuredStep measured_step(const ObjectTrack& track, const ScanObject& object,
 
 /// Parked or moving, by the step, and on which course.
 /// @return whether the step may be taken for its own.
-bool judge_step(const ObjectTrack& track, const MeasuredStep& step, const TrackOptions& options,
+bool judge_step(const ObjectTrack& track, const PlanarStep& step, const TrackOptions& options,
                 ScanLesson& lesson) {
-  constexpr double kContradiction = 4.6;  // a hundred to one, of the free-space test
   const StepLikelihoods likelihood(step, options);
   double moving = 0, best = 0;
   for (const Course& course : courses_of(track, options)) {
@@ -157,7 +180,6 @@ bool judge_step(const ObjectTrack& track, const MeasuredStep& step, const TrackO
     lesson.surprises = course.is_new;
     lesson.state = now;
   }
-  if (step.was_there) lesson.log_odds -= kContradiction;
   lesson.log_odds = std::clamp(lesson.log_odds + std::log(moving / likelihood.parked()),
                                -kMostLogOdds, kMostLogOdds);
   return lesson.log_odds <= 0 || 2 * likelihood.stuck() <= moving;
@@ -187,7 +209,7 @@ ScanLesson learn_from_scans(const ObjectTrack& track, const ScanObject& object,
   lesson.log_odds = decayed(options.image_factor ? track.latest_log_odds : track.log_odds,
                             seconds_between(track.stamp, instant), options);
   if (!options.scan_factor) return lesson;
-  const MeasuredStep step = measured_step(track, object, scan, lesson.state, options);
+  const PlanarStep step = measured_step(track, object, scan, lesson.state, options);
   if (judge_step(track, step, options, lesson)) lesson.state = updated(lesson.state, step);
   return lesson;
 }

@@ -14,7 +14,7 @@ struct MotionNoise {
   double unknown_speed_sigma = 20;      ///< m/s per axis, of an object seen for the first time
   double aside_speed_sigma = 2;         ///< m/s, likewise, across the road if it follows that
   double unknown_yaw_rate_sigma = 0.3;  ///< rad/s, likewise
-  double acceleration = 4;              ///< m^2/s^3: after a second, 2 m/s
+  double acceleration = 1.5;            ///< m^2/s^3: of 0.9 m/s^2 (rms) that last a second, 2 a^2 t
   double yaw_acceleration = 0.1;        ///< rad^2/s^3
 };
 

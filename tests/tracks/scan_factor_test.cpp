@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the lidar_upsampling authors
+#include "lidar_upsampling/tracks/scan_factor.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numeric>
+
+#include "tracks/car_on_pictures.h"
+#include "tracks/vehicle_surface.h"
+
+namespace lidar_upsampling {
+namespace {
+
+using testing::kStart;
+using testing::street_with;
+
+constexpr float kLength_m = 4;
+
+// The flat side of a car that passes us on the left.
+std::vector<Eigen::Vector3f> flat_side(float rear) {
+  std::vector<Eigen::Vector3f> points;
+  for (float x = rear; x <= rear + kLength_m; x += 0.05F)
+    for (float z = -1.2F; z < 0.3F; z += 0.1F) points.emplace_back(x, 3.5F, z);
+  return points;
+}
+
+// What two scans tell of it, 0.1 s apart, of a vehicle at rest.
+ScanLesson lesson_of(float rear_before, float rear_now) {
+  const auto before = flat_side(rear_before), now = flat_side(rear_now);
+  const SeenSpace seen_before = street_with(before), seen_now = street_with(now);
+  const TrackOptions options;
+  ObjectTrack track;
+  track.stamp = kStart;
+  track.T_rest_lidar = Pose::Identity();
+  track.points = before;
+  track.centroid_rest = mean_of(before);
+  track.length = kLength_m;
+  track.state = track.latest = new_track_state(kStart, options.noise);
+  track.log_odds = track.latest_log_odds = prior_log_odds(options);
+  LidarScan scan;
+  scan.stamp = shifted(kStart, 0.1);
+  scan.points = now;
+  ScanObject object;
+  object.points.resize(now.size());
+  std::iota(object.points.begin(), object.points.end(), 0);
+  object.centroid = mean_of(now);
+  object.length = kLength_m;
+  const Pose T_rest_lidar = Pose::Identity();
+  const Matrix6d exact = Matrix6d::Zero();
+  return learn_from_scans(track, object,
+                          {scan, T_rest_lidar, exact, seen_now, &seen_before, kStart}, options);
+}
+
+TEST(ScanFactor, knows_by_its_ends_how_far_a_flat_side_has_gone) {
+  const ScanLesson lesson = lesson_of(4, 5.1F);
+  EXPECT_NEAR(lesson.state.mean[0], 1.1, 0.1);
+  EXPECT_LT(std::sqrt(lesson.state.covariance(0, 0)), 0.15);
+  EXPECT_GT(lesson.log_odds, 2);
+}
+
+TEST(ScanFactor, knows_by_its_ends_that_a_flat_side_stands) {
+  const ScanLesson lesson = lesson_of(4, 4);
+  EXPECT_NEAR(lesson.state.mean[0], 0, 0.1);
+  EXPECT_LT(lesson.log_odds, -2);
+}
+
+}  // namespace
+}  // namespace lidar_upsampling
