@@ -108,6 +108,24 @@ TEST(CameraEgo, a_guess_holds_what_few_points_cannot) {
             translation_between(without->T_lidar_t_lidar_k, truth));
 }
 
+TEST(CameraEgo, a_handful_of_points_betters_a_guess_that_knows_its_own_error) {
+  const Pose truth = lidar_at(0.8, 0, 0.01).inverse() * lidar_at(0, 0, 0);
+  const Pose guess = lidar_at(1.0, 0, 0.01).inverse() * lidar_at(0, 0, 0);
+  TrackedStreet street = track_street(truth, 0.3, 0, Pose::Identity());
+  std::vector<Correspondence> few;
+  for (std::size_t i = 0; i < street.correspondences.size(); i += 25)
+    few.push_back(street.correspondences[i]);
+  ASSERT_LT(few.size(), 20U);
+  CameraEgoOptions options;
+  EXPECT_FALSE(estimate_camera_ego(few, wide_picture(), camera_on_roof(), options, guess));
+  options.trust_guess = true;
+  options.guess_covariance = Matrix6d(1e-6 * Matrix6d::Identity());
+  options.guess_covariance->bottomRightCorner<3, 3>() *= 4e4;  // 0.2 m
+  const auto ego = estimate_camera_ego(few, wide_picture(), camera_on_roof(), options, guess);
+  ASSERT_TRUE(ego);
+  EXPECT_LT(translation_between(ego->T_lidar_t_lidar_k, truth), 0.05);
+}
+
 TEST(CameraEgo, there_is_none_of_a_handful_of_points_nor_of_noise) {
   TrackedStreet street = track_street(Pose::Identity(), 0.4, 0, Pose::Identity());
   std::mt19937 random(9);

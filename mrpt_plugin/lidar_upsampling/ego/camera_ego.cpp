@@ -12,6 +12,9 @@ namespace lidar_upsampling {
 
 namespace {
 
+// Points that may better a guess whose covariance is known: three would tell a pose, twice.
+constexpr int kEnoughBesideGuess = 6;
+
 void check_options(const CameraEgoOptions& options) {
   for (const double sigma :
        {options.forward_sigma_m, options.sideways_sigma_m, options.vertical_sigma_m,
@@ -62,9 +65,8 @@ std::optional<CameraEgo> estimate_camera_ego(const std::vector<Correspondence>& 
                                              const CameraModel& model, const Pose& T_camera_lidar,
                                              const CameraEgoOptions& options, const Pose& guess) {
   check_options(options);
-  if (static_cast<int>(correspondences.size()) < options.min_correspondences) {
-    return std::nullopt;
-  }
+  const int enough = options.guess_covariance ? kEnoughBesideGuess : options.min_correspondences;
+  if (static_cast<int>(correspondences.size()) < enough) return std::nullopt;
   std::vector<Pose> starts{T_camera_lidar * guess};
   if (!options.trust_guess) {
     const auto free = estimate_absolute_pose(correspondences, model, options.pose, starts.front());
@@ -76,7 +78,7 @@ std::optional<CameraEgo> estimate_camera_ego(const std::vector<Correspondence>& 
   const auto refined = refine_likeliest_pose(correspondences, model, starts, options.pose,
                                              vehicle_prior(T_camera_lidar, guess, options));
   // With a prior the refinement asks for no number of inliers: we do.
-  if (!refined || refined->num_inliers < options.min_correspondences / 2 ||
+  if (!refined || refined->num_inliers < enough / 2 ||
       refined->num_inliers <
           options.pose.min_inlier_ratio * static_cast<double>(correspondences.size())) {
     return std::nullopt;
