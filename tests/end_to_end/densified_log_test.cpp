@@ -87,9 +87,11 @@ TEST(DensifiedLog, offline_scans_to_come_tell_of_the_objects_motions) {
               kVirtualScans);
     return errors_to_truth(folder)["moving_objects_m"]["mean"].get<double>();
   };
-  const double causal = moving_error(""), offline = moving_error("--set mode=offline");
-  EXPECT_LT(offline, 0.05);
-  EXPECT_LT(offline, causal);
+  EXPECT_LT(moving_error("--set mode=offline"), 0.02);
+  // Where pictures tell nothing, only scans to come know how what is new will go on.
+  const std::string blind = "--set klt.max_residual=0.001";
+  const double causal = moving_error(blind), offline = moving_error(blind + " --set mode=offline");
+  EXPECT_LT(offline, 0.5 * causal);
 }
 
 }  // namespace
