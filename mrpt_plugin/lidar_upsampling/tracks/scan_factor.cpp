@@ -73,13 +73,13 @@ bool has_face_across(const std::vector<Eigen::Vector3f>& points, const Eigen::Ve
 bool tells_step(const TwoSights& sights, const Eigen::Vector2d& step, const TrackedScan& scan) {
   if (sights.scans.seen_before == nullptr || step.norm() < 1e-3) return true;
   const Eigen::Vector2d d = step.normalized();
-  if (has_face_across(sights.scans.now, sights.axes_now.transpose() * d)) return true;
   const ObjectSight before{sights.scans.before, *sights.scans.seen_before};
   const ObjectSight now{sights.scans.now, scan.seen};
   const Eigen::Vector2d d_before = sights.axes_before.transpose() * d;
   const Eigen::Vector2d d_now = sights.axes_now.transpose() * d;
   return (ends_in_sight(before, d_before) && ends_in_sight(now, d_now)) ||
-         (ends_in_sight(before, -d_before) && ends_in_sight(now, -d_now));
+         (ends_in_sight(before, -d_before) && ends_in_sight(now, -d_now)) ||
+         has_face_across(sights.scans.now, d_now);  // last, as normals take longest
 }
 
 /// Where the object ends on one side, m along a direction at rest; none if something hides its end.
