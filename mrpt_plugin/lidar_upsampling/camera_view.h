@@ -9,7 +9,6 @@
 #include "lidar_upsampling/objects/point_tracks.h"
 #include "lidar_upsampling/se3.h"
 #include "lidar_upsampling/types.h"
-#include "lidar_upsampling/vision/visibility.h"
 
 namespace lidar_upsampling {
 
@@ -36,9 +35,8 @@ struct CameraView {
   Camera camera;
   std::shared_ptr<const Picture> last;
   std::shared_ptr<const Picture>
-      anchor;              ///< where the key scan's points were put; null: nowhere yet
-  double anchor_dt = 0;    ///< s from the key scan to the anchor
-  Neighbourhood sampling;  ///< of the key scan on the picture
+      anchor;            ///< where the key scan's points were put; null: nowhere yet
+  double anchor_dt = 0;  ///< s from the key scan to the anchor
   std::vector<FollowedObject> objects;
   PointTracks points;
 };

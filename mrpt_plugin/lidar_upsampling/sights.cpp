@@ -36,7 +36,7 @@ FollowedObject followed_object(const ScanObject& object, const ObjectTrack& trac
 std::vector<Twist> motions_to_try(const ObjectTrack& track, const ScanObject& object,
                                   const Eigen::Matrix3d& R_rest_k, Stamp instant, double focal_px,
                                   const Config& config) {
-  constexpr double kSamePatch = 0.3;
+  constexpr double kSamePatch = 0.3;  // of a patch's side, within which the search ends alike
   const TrackOptions& options = config.object_tracks;
   const double patch_m = config.klt.window_px * std::max(1., object.centroid.norm()) / focal_px;
   const TrackState now = track.ahead ? track.expected_at(instant, options.noise)
@@ -85,7 +85,6 @@ void start_view(CameraView& view, const std::shared_ptr<const Picture>& anchor,
   view.anchor_dt = seconds_between(scan.stamp, anchor->instant);
   if (std::abs(view.anchor_dt) * 1e3 <= config.timing.pair_tolerance_ms) view.anchor_dt = 0;
   view.points = {};
-  view.sampling = anchored.sampling;
   choose_points(view, anchored, texture, scan, T_camera_lidar_a, !ego.covariance.isZero(0), config);
   view.anchor = anchor;
 }

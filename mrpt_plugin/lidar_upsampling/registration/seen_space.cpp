@@ -85,17 +85,4 @@ bool SeenSpace::is_behind_something(const Eigen::Vector3f& place) const {
   return cell.farthest > 0 && cell.nearest < place.norm() - kMargin_m;
 }
 
-float SeenSpace::reach(const Eigen::Vector3f& place) const {
-  const int row = row_of(place);
-  if (row < 0) return 0;
-  const int column = column_of(place);
-  float farthest = 0;
-  for (int step = -1; step <= 1; ++step)
-    farthest = std::max(
-        farthest,
-        cells_[static_cast<std::size_t>(row) * columns_ + (column + step + columns_) % columns_]
-            .farthest);
-  return farthest;
-}
-
 }  // namespace lidar_upsampling

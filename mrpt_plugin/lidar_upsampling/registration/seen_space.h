@@ -27,8 +27,6 @@ class SeenSpace {
   /// @brief Whether something nearer stands in the place's own direction, of what was measured
   /// there.
   [[nodiscard]] bool is_behind_something(const Eigen::Vector3f& place) const;
-  /// m, that the beams went around a direction; zero where there were none.
-  [[nodiscard]] float reach(const Eigen::Vector3f& place) const;
 
  private:
   struct Reach {

@@ -177,8 +177,7 @@ std::vector<float> PatchAligner::own_pixels(const SurfaceMap& surfaces, std::int
   if (surfaces.label.empty() || label == SurfaceMap::kUnknown) return {};
   const int half = options_.window_px / 2;
   const int left = cvRound(point.x) - half, top = cvRound(point.y) - half;
-  std::vector<float> own(weight_.size(), 1);
-  bool is_all_own = true;
+  std::vector<float> own;
   for (int v = 0, i = 0; v <= 2 * half; ++v) {
     for (int u = 0; u <= 2 * half; ++u, ++i) {
       if (left + u < 0 || top + v < 0 || left + u >= surfaces.label.cols ||
@@ -186,11 +185,11 @@ std::vector<float> PatchAligner::own_pixels(const SurfaceMap& surfaces, std::int
         continue;
       const std::int16_t here = surfaces.label.at<std::int16_t>(top + v, left + u);
       if (here == label || here == SurfaceMap::kUnknown) continue;
+      own.resize(weight_.size(), 1);
       own[i] = 0;
-      is_all_own = false;
     }
   }
-  return is_all_own ? std::vector<float>{} : own;
+  return own;
 }
 
 std::optional<Alignment> PatchAligner::align(const cv::Mat& from, const cv::Mat& to,
@@ -198,8 +197,9 @@ std::optional<Alignment> PatchAligner::align(const cv::Mat& from, const cv::Mat&
                                              const std::vector<float>& own) const {
   const int half = options_.window_px / 2;
   const int size = static_cast<int>(weight_.size());
-  std::vector<float> weights = weight_;
-  for (std::size_t i = 0; i < own.size(); ++i) weights[i] *= own[i];
+  std::vector<float> of_own = own;
+  for (std::size_t i = 0; i < own.size(); ++i) of_own[i] *= weight_[i];
+  const std::vector<float>& weights = own.empty() ? weight_ : of_own;
   const Eigen::Map<const Eigen::ArrayXf> weight(weights.data(), size);
   const Eigen::Map<const Eigen::ArrayXf> whole(weight_.data(), size);
   const float weight_sum = weight.sum();
