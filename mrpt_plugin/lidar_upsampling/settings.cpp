@@ -240,6 +240,10 @@ void visit_tracks(Config& c, SettingVisitor& v) {
   v.number("unknown_yaw_rate_sigma_rad_s", t.noise.unknown_yaw_rate_sigma, kPositive, "likewise");
   v.number("acceleration_m2_s3", t.noise.acceleration, kPositive,
            "white noise by which velocities change: variance per second");
+  v.number("manoeuvre_m2_s3", t.noise.manoeuvre, kPositive,
+           "likewise, while one brakes, pulls away, or swerves");
+  v.number("manoeuvre_change", t.manoeuvre_change, kProbability,
+           "probability, from sight to sight, that one begins or ends");
   v.number("yaw_acceleration_rad2_s3", t.noise.yaw_acceleration, kPositive, "likewise");
   v.number("birth_density_per_m2", t.birth_density, kPositive, "new objects from scan to scan");
   v.number("extent_error", t.extent_error, kPositive,
@@ -248,7 +252,7 @@ void visit_tracks(Config& c, SettingVisitor& v) {
            "of registrations, and of pictures, that are wrong");
   v.number("outlier_density_per_m2", t.outlier_density, kPositive, "of where these lead");
   v.number("common_error_px", t.common_error_px, kPositive,
-           "what ego-motion and calibration may be wrong on the picture");
+           "what all points of an object have wrong alike on the picture");
   v.number("sigma_px", t.points.sigma_px, kPositive,
            "expected scatter of a followed point, per axis");
   v.number("degrees_of_freedom", t.points.degrees_of_freedom, kPositive,

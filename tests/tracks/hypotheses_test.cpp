@@ -88,6 +88,32 @@ TEST(Hypotheses, what_the_ego_motion_may_be_wrong_by_is_no_motion) {
   EXPECT_FALSE(estimate_motion(new_track(), picture_of(by_5_cm), question, {by_5_cm}, {}).moves);
 }
 
+TEST(Hypotheses, however_many_points_agree_a_picture_tells_no_more_than_its_common_error) {
+  const Twist truth = to_the_side(0.5);
+  const MotionAnswer answer =
+      estimate_motion(new_track(), picture_of(truth), question_after(0.1), {truth}, {});
+  const double shift_m = TrackOptions().common_error_px / 700 * kCentroid.norm();
+  EXPECT_GT(answer.moving.covariance(4, 4), shift_m * shift_m);
+  EXPECT_GT(answer.moving.covariance(3, 3), 4 * answer.moving.covariance(4, 4))
+      << "coming nearer is seen by how an object grows, which is less sure than where it is";
+}
+
+TEST(Hypotheses, one_that_brakes_hard_is_not_held_to_how_it_went) {
+  const ObjectTrack track = known_track(10, 5);
+  Twist braked = Twist::Zero();
+  braked[3] = 0.6;  // of 1 m that it would have gone
+  Twist steady = Twist::Zero();
+  steady[3] = 1;
+  const auto answer = [&](const Twist& motion, double change) {
+    TrackOptions options;
+    options.manoeuvre_change = change;
+    return estimate_motion(track, picture_of(motion), question_after(0.1), {motion}, options);
+  };
+  EXPECT_LT(answer(braked, 0.05).moving.mean[3], answer(braked, 1e-9).moving.mean[3]);
+  EXPECT_GT(answer(braked, 0.05).state.acceleration, 2 * answer(steady, 0.05).state.acceleration)
+      << "it is known to manoeuvre, then";
+}
+
 TEST(Hypotheses, a_mover_goes_on_where_no_camera_sees_it_ever_less_certainly) {
   const ObjectTrack track = known_track(10, 5);
   const MotionAnswer soon = estimate_motion(track, {}, question_after(0.1), {}, {});

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "lidar_upsampling/tracks/scan_factor.h"
 #include "lidar_upsampling/units.h"
@@ -11,18 +12,36 @@
 namespace lidar_upsampling {
 namespace {
 
-/// Errors of the ego-motion and of the calibration, as a motion of the object; lidar frame at k.
-Matrix6d common_error(const MotionQuestion& question, const TrackOptions& options) {
+/// The ego-motion's error, as a motion of the object; lidar frame at k.
+Matrix6d ego_error(const MotionQuestion& question) {
   const Eigen::Matrix3d R = question.T_lidar_t_lidar_k.linear().transpose();
   Matrix6d by_twist = Matrix6d::Zero();
   by_twist.topLeftCorner<3, 3>() = R;
   by_twist.bottomLeftCorner<3, 3>() = -R * skew(question.T_lidar_t_lidar_k * question.centroid);
   by_twist.bottomRightCorner<3, 3>() = R;
-  Matrix6d error = by_twist * question.ego_covariance * by_twist.transpose();
-  const double sideways = options.common_error_px / question.focal_px * question.centroid.norm();
-  constexpr double kLeastTurn = 2e-4;  // rad: a hundredth of a degree, so that it can be inverted
-  error.diagonal().head<3>().array() += kLeastTurn * kLeastTurn;
-  error.diagonal().tail<3>().array() += sideways * sideways;
+  return by_twist * question.ego_covariance * by_twist.transpose();
+}
+
+/// What all points of an object have wrong alike, as a motion of it: calibration, straightening of
+/// the scan, a body that bends. A shift, and as much again from its middle to its edge, which looks
+/// like a turn, or like coming nearer.
+Matrix6d picture_error(const MotionQuestion& question, const ImageFactor& image,
+                       const TrackOptions& options) {
+  constexpr double kPatch_px = 5;  // a single point is as wide as its patch
+  const double range = question.centroid.norm(), m_per_px = range / question.focal_px;
+  const Eigen::Vector3d ahead = question.centroid / range;
+  Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+  for (const Observation& seen : image.observations) middle += seen.point_in_source;
+  middle /= std::max<double>(1., static_cast<double>(image.observations.size()));
+  double sq_width = std::pow(kPatch_px * m_per_px, 2);
+  for (const Observation& seen : image.observations)
+    sq_width += ahead.cross(seen.point_in_source - middle).squaredNorm() /
+                static_cast<double>(image.observations.size());
+  const double sq_shift = std::pow(options.common_error_px * m_per_px, 2);
+  const double sq_share = sq_shift / sq_width;  // of its size
+  Matrix6d error = Matrix6d::Zero();
+  error.diagonal() << Eigen::Vector3d::Constant(sq_share), Eigen::Vector3d::Constant(sq_shift);
+  error.bottomRightCorner<3, 3>() += sq_share * range * range * ahead * ahead.transpose();
   return error;
 }
 
@@ -32,23 +51,6 @@ PlanarStep in_rest(const Twist& mean, const Matrix6d& covariance,
   pick.block<2, 2>(0, 3) = level_axes(R_rest_lidar_k);
   pick(2, 2) = 1;
   return {pick * mean, pick * covariance * pick.transpose()};
-}
-
-/// What either hypothesis expects, and who knows nothing.
-struct Expected {
-  MotionExpected moving, parked, any;
-};
-
-struct Fits {
-  MotionFit moving, parked;
-};
-
-bool is_heard(const Fits& fits, std::size_t num_found, int num_followed,
-              const TrackOptions& options) {
-  const int agree = std::max(fits.moving.num_inliers, fits.parked.num_inliers);
-  // Of few points, half are enough.
-  return agree >= options.min_agreement * static_cast<double>(num_found) &&
-         agree >= std::min<double>(options.min_inliers, 0.5 * num_followed);
 }
 
 /// What remains of a measurement that has joined `after` from `before`, joined with another guess.
@@ -64,16 +66,15 @@ PlanarStep joined(const PlanarStep& other, const PlanarStep& before, const Plana
 }
 
 /// The state with what the picture tells, whatever was expected of the picture.
-TrackState learnt(const TrackState& state, const Expected& expected, const MotionFit& fit,
+TrackState learnt(const TrackState& state, const MotionExpected& expected,
+                  const MotionExpected& parked, const MotionFit& fit,
                   const Eigen::Matrix3d& R_rest_lidar_k) {
-  const PlanarStep common =
-      in_rest(expected.parked.mean, expected.parked.covariance, R_rest_lidar_k);
+  const auto step_of = [&](const auto& motion) {
+    return in_rest(motion.mean, motion.covariance, R_rest_lidar_k);
+  };
   PlanarStep own = state.step();
-  own.covariance += common.covariance;
-  const PlanarStep before =
-      in_rest(expected.moving.mean, expected.moving.covariance, R_rest_lidar_k);
-  return updated(state, own,
-                 joined(own, before, in_rest(fit.mean, fit.covariance, R_rest_lidar_k)));
+  own.covariance += step_of(parked).covariance;
+  return updated(state, own, joined(own, step_of(expected), step_of(fit)));
 }
 
 /// Of the picture, unless its points were found at wrong places, where they fit as well as ones of
@@ -84,50 +85,123 @@ double log_likelihood(double log_evidence, double log_of_any, const TrackOptions
                          options.outlier_share * std::exp(log_of_any - most));
 }
 
-void hear(MotionAnswer& answer, const ImageFactor& image, const MotionQuestion& question,
-          const Expected& expected, std::vector<Twist> starts, const TrackOptions& options) {
-  starts.push_back(expected.moving.mean);
+/// One of the ways in which the object may move.
+struct Way {
+  double probability = 0;
+  TrackState state;         ///< at the instant, as the filter has it
+  MotionExpected expected;  ///< then, with scans to come
+};
+
+std::vector<Way> ways_of(const ObjectTrack& track, const MotionQuestion& question,
+                         const Matrix6d& common, const TrackOptions& options) {
+  const auto way = [&](double probability, const TrackState& state, const TrackState& expected) {
+    Way result{probability, state,
+               expected_motion(expected, question.R_rest_lidar_k,
+                               seconds_between(track.stamp, question.instant), options)};
+    result.expected.covariance += common;
+    return result;
+  };
+  const auto at_instant = [&](const TrackState& state) {
+    return predicted(state, question.instant, options.noise);
+  };
+  if (track.ahead)
+    return {way(1, at_instant(track.state), track.expected_at(question.instant, options.noise))};
+  std::vector<Way> ways;
+  for (const Course& course : courses_before_images(track, options))
+    ways.push_back(way(course.probability, at_instant(course.from), at_instant(course.from)));
+  return ways;
+}
+
+/// The mixture of some Gaussians as one, with the same mean and covariance.
+template <typename Gaussian>
+void mix(const std::vector<double>& weights, const std::vector<Gaussian>& parts, Gaussian& mixed) {
+  mixed.mean.setZero();
+  mixed.covariance.setZero();
+  for (std::size_t i = 0; i < parts.size(); ++i) mixed.mean += weights[i] * parts[i].mean;
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    const Twist astray = parts[i].mean - mixed.mean;
+    mixed.covariance += weights[i] * (parts[i].covariance + astray * astray.transpose());
+  }
+}
+
+/// What a picture makes of the hypotheses.
+struct Heard {
+  MotionFit parked;
+  std::vector<MotionFit> moving;          ///< each way
+  std::vector<double> weights;            ///< of the ways, given that it moves
+  double log_parked = 0, log_moving = 0;  ///< evidence
+};
+
+void weigh(const std::vector<Way>& ways, double of_any, const TrackOptions& options, Heard& heard) {
+  heard.log_parked = log_likelihood(heard.parked.log_evidence, of_any, options);
+  std::vector<double> logs;
+  for (std::size_t i = 0; i < ways.size(); ++i)
+    logs.push_back(std::log(ways[i].probability) +
+                   log_likelihood(heard.moving[i].log_evidence, of_any, options));
+  const double most = *std::max_element(logs.begin(), logs.end());
+  double sum = 0;
+  for (const double log : logs) sum += std::exp(log - most);
+  heard.log_moving = most + std::log(sum);
+  for (const double log : logs) heard.weights.push_back(std::exp(log - heard.log_moving));
+}
+
+/// None if few of the followed points agree with either: the picture was asked at wrong places.
+std::optional<Heard> hear(Stamp stamp, const ImageFactor& image, const MotionQuestion& question,
+                          const std::vector<Way>& ways, const MotionExpected& parked,
+                          const std::vector<Twist>& starts, const TrackOptions& options) {
   const auto fit = [&](const MotionExpected& prior, const std::vector<Twist>& from) {
     return fit_with_scatter(image, question.centroid, prior, from, options.points);
   };
-  const Fits fits{fit(expected.moving, starts), fit(expected.parked, {Twist::Zero()})};
-  if (!is_heard(fits, image.observations.size(), question.num_followed, options)) return;
-  answer.is_seen = true;
-  answer.moving = fits.moving;
-  answer.parked = fits.parked;
-  const double of_any = fit(expected.any, {fits.moving.mean}).log_evidence;
-  const double parked = log_likelihood(fits.parked.log_evidence, of_any, options);
-  answer.log_odds +=
-      log_likelihood(log_likelihood(fits.moving.log_evidence, of_any, options), parked, options) -
-      parked;
-  answer.state = learnt(answer.state, expected, fits.moving, question.R_rest_lidar_k);
+  Heard heard;
+  heard.parked = fit(parked, {Twist::Zero()});
+  int agree = heard.parked.num_inliers;
+  for (const Way& way : ways) {
+    std::vector<Twist> from = starts;
+    from.push_back(way.expected.mean);
+    heard.moving.push_back(fit(way.expected, from));
+    agree = std::max(agree, heard.moving.back().num_inliers);
+  }
+  // Of few points, half are enough.
+  if (agree < options.min_agreement * static_cast<double>(image.observations.size()) ||
+      agree < std::min<double>(options.min_inliers, 0.5 * question.num_followed))
+    return {};
+  MotionExpected any = expected_motion(
+      predicted(new_track_state(stamp, options.noise), question.instant, options.noise),
+      question.R_rest_lidar_k, seconds_between(stamp, question.instant), options);
+  any.covariance += parked.covariance;
+  weigh(ways, fit(any, {heard.moving.front().mean}).log_evidence, options, heard);
+  return heard;
 }
 
-// How it may move, at the instant.
-struct States {
-  TrackState any;       // who knows nothing
-  TrackState state;     // as the filter has it
-  TrackState expected;  // with scans to come
-};
+/// What the picture's own error leaves of a fit that holds it.
+MotionFit without(const Matrix6d& error, const MotionExpected& expected, MotionFit fit) {
+  const Matrix6d K = Matrix6d::Identity() - error * expected.covariance.inverse();
+  fit.mean = expected.mean + K * (fit.mean - expected.mean);
+  fit.covariance = Matrix6d(K * fit.covariance * K.transpose() + K * error);
+  return fit;
+}
 
-MotionAnswer answer_from(const States& states, double log_odds, const ImageFactor& image,
-                         const MotionQuestion& question, const std::vector<Twist>& starts,
-                         double dt, const TrackOptions& options) {
-  const auto motion = [&](const TrackState& state) {
-    return expected_motion(state, question.R_rest_lidar_k, dt, options);
-  };
-  Expected expected{motion(states.expected), {}, motion(states.any)};
-  expected.parked.covariance = common_error(question, options);
-  expected.moving.covariance += expected.parked.covariance;
-  expected.any.covariance += expected.parked.covariance;
-  MotionAnswer answer;
-  answer.state = states.state;
-  answer.log_odds = log_odds;
-  answer.moving.mean = expected.moving.mean;
-  answer.moving.covariance = expected.moving.covariance;
-  answer.parked.covariance = expected.parked.covariance;
-  if (!image.observations.empty()) hear(answer, image, question, expected, starts, options);
-  return answer;
+void learn(const Heard& heard, const std::vector<Way>& ways, const MotionExpected& parked,
+           const Matrix6d& of_picture, const MotionQuestion& question, const TrackOptions& options,
+           MotionAnswer& answer) {
+  answer.is_seen = true;
+  answer.parked = heard.parked;
+  answer.moving = heard.moving[std::max_element(heard.weights.begin(), heard.weights.end()) -
+                               heard.weights.begin()];
+  std::vector<MotionFit> told;
+  for (std::size_t i = 0; i < ways.size(); ++i)
+    told.push_back(without(of_picture, ways[i].expected, heard.moving[i]));
+  mix(heard.weights, told, answer.moving);
+  std::vector<TrackState> states;
+  double acceleration = 0;
+  for (std::size_t i = 0; i < ways.size(); ++i) {
+    states.push_back(
+        learnt(ways[i].state, ways[i].expected, parked, heard.moving[i], question.R_rest_lidar_k));
+    acceleration += heard.weights[i] * states.back().acceleration;
+  }
+  mix(heard.weights, states, answer.state);
+  answer.state.acceleration = acceleration;
+  answer.log_odds += log_likelihood(heard.log_moving, heard.log_parked, options) - heard.log_parked;
 }
 
 }  // namespace
@@ -159,24 +233,22 @@ MotionExpected expected_motion(const TrackState& at_instant, const Eigen::Matrix
 MotionAnswer estimate_motion(const ObjectTrack& track, const ImageFactor& image,
                              const MotionQuestion& question, const std::vector<Twist>& starts,
                              const TrackOptions& options) {
-  const auto at_instant = [&](const TrackState& state) {
-    return predicted(state, question.instant, options.noise);
-  };
-  const double dt = seconds_between(track.stamp, question.instant);
-  const auto answer_if = [&](const TrackState& state, const TrackState& expected) {
-    return answer_from({at_instant(new_track_state(track.stamp, options.noise)), state, expected},
-                       track.expected_log_odds(), image, question, starts, dt, options);
-  };
-  const TrackState state = at_instant(track.state);
-  MotionAnswer answer =
-      answer_if(state, track.ahead ? track.expected_at(question.instant, options.noise) : state);
-  if (answer.is_seen && track.on_road && !track.ahead) {
-    const TrackState on_road = at_instant(*track.on_road);
-    const MotionAnswer other = answer_if(on_road, on_road);
-    const double log_odds = log_mean(answer.log_odds, other.log_odds);
-    if (other.log_odds > answer.log_odds) answer = other;
-    answer.log_odds = log_odds;
-  }
+  constexpr double kLeastTurn = 2e-4;  // rad: a hundredth of a degree, so that it can be inverted
+  MotionExpected parked{Twist::Zero(), ego_error(question)};
+  parked.covariance.diagonal().array() += kLeastTurn * kLeastTurn;
+  const Matrix6d of_picture = picture_error(question, image, options);
+  if (!image.observations.empty()) parked.covariance += of_picture;
+  const std::vector<Way> ways = ways_of(track, question, parked.covariance, options);
+  MotionAnswer answer;
+  answer.log_odds = track.expected_log_odds();
+  answer.state = ways.front().state;
+  answer.moving.mean = ways.front().expected.mean;
+  answer.moving.covariance = ways.front().expected.covariance;
+  answer.parked.covariance = parked.covariance;
+  const auto heard = image.observations.empty()
+                         ? std::nullopt
+                         : hear(track.stamp, image, question, ways, parked, starts, options);
+  if (heard) learn(*heard, ways, parked, of_picture, question, options, answer);
   answer.moves = options.static_test ? answer.log_odds > std::log(options.loss_ratio)
                                      : answer.is_seen || answer.log_odds > 0;
   answer.log_odds = std::clamp(answer.log_odds, -kMostLogOdds, kMostLogOdds);

@@ -169,17 +169,22 @@ PlanarStep measured_step(const ObjectTrack& track, const ScanObject& object,
 bool judge_step(const ObjectTrack& track, const PlanarStep& step, const TrackOptions& options,
                 ScanLesson& lesson) {
   const StepLikelihoods likelihood(step, options);
-  double moving = 0, best = 0;
+  double moving = 0, best = 0, known = 0, acceleration = 0;
   for (const Course& course : courses_of(track, options)) {
     const TrackState now = predicted(course.from, lesson.state.stamp, options.noise);
     const double here = course.probability * likelihood.moving(now);
     moving += here;
+    if (!course.is_new) {
+      known += here;
+      acceleration += here * course.from.acceleration;
+    }
     if (here <= best) continue;
     best = here;
     lesson.from = course.from;
     lesson.surprises = course.is_new;
-    lesson.state = now;
   }
+  if (!lesson.surprises) lesson.from.acceleration = acceleration / known;
+  lesson.state = predicted(lesson.from, lesson.state.stamp, options.noise);
   lesson.log_odds = std::clamp(lesson.log_odds + std::log(moving / likelihood.parked()),
                                -kMostLogOdds, kMostLogOdds);
   return lesson.log_odds <= 0 || 2 * likelihood.stuck() <= moving;

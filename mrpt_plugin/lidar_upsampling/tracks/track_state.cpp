@@ -34,9 +34,10 @@ Transition transition(const Twist& from, double dt) {
   return result;
 }
 
-Matrix6d process_noise(double dt, const MotionNoise& noise) {
+Matrix6d process_noise(double dt, double acceleration, const MotionNoise& noise) {
   Matrix6d result = Matrix6d::Zero();
-  const double density[3] = {noise.acceleration, noise.acceleration, noise.yaw_acceleration};
+  const double along = std::max(acceleration, noise.acceleration);
+  const double density[3] = {along, along, noise.yaw_acceleration};
   for (int i = 0; i < 3; ++i) {
     result(i, i) = density[i] * dt * dt * dt / 3;
     result(i, i + 3) = result(i + 3, i) = density[i] * dt * dt / 2;
@@ -76,7 +77,9 @@ TrackState predicted(const TrackState& state, Stamp stamp, const MotionNoise& no
   if (dt <= 0) return state;
   const Transition to = transition(state.mean, dt);
   return {stamp, to.mean,
-          to.by_state * state.covariance * to.by_state.transpose() + process_noise(dt, noise)};
+          to.by_state * state.covariance * to.by_state.transpose() +
+              process_noise(dt, state.acceleration, noise),
+          state.acceleration};
 }
 
 TrackState updated(const TrackState& state, const PlanarStep& before, const PlanarStep& after) {

@@ -14,8 +14,9 @@ struct MotionNoise {
   double unknown_speed_sigma = 20;      ///< m/s per axis, of an object seen for the first time
   double aside_speed_sigma = 2;         ///< m/s, likewise, across the road if it follows that
   double unknown_yaw_rate_sigma = 0.3;  ///< rad/s, likewise
-  double acceleration = 1.5;            ///< m^2/s^3: of 0.9 m/s^2 (rms) that last a second, 2 a^2 t
-  double yaw_acceleration = 0.1;        ///< rad^2/s^3
+  double acceleration = 0.3;            ///< m^2/s^3: of 0.4 m/s^2 (rms) that last a second, 2 a^2 t
+  double manoeuvre = 10;          ///< m^2/s^3, while one brakes, pulls away, or swerves: 2.2 m/s^2
+  double yaw_acceleration = 0.1;  ///< rad^2/s^3
 };
 
 /// @brief A step over ground: x and y of the object's centroid (m), and its heading (rad).
@@ -34,6 +35,7 @@ struct TrackState {
   Stamp stamp;
   Twist mean = Twist::Zero();
   Matrix6d covariance = Matrix6d::Zero();
+  double acceleration = 0;  ///< m^2/s^3, of the noise from now on, if more than the least
 
   [[nodiscard]] PlanarStep step() const {
     return {mean.head<3>(), covariance.topLeftCorner<3, 3>()};
