@@ -41,7 +41,7 @@ struct MotionExpected {
 struct PointNoise {
   double sigma_px = 0.5;              ///< expected; measured on the points themselves
   double degrees_of_freedom = 2;      ///< few: many go astray
-  double points_per_observation = 3;  ///< neighbouring points err alike: so many count as one
+  double points_per_observation = 4;  ///< neighbouring points err alike: so many count as one
 };
 
 /// What a hypothesis makes of the factors.
