@@ -99,8 +99,8 @@ class RawLogViewer : public testing::Test {
 
   void make_log(const std::string& lidar, const std::string& settings, const std::string& log) {
     simulate(folder_, "[scenario]\nduration_s = 0.2\n" + log, lidar);
-    // What moves is to be told from the first image on.
-    densify(folder_, "--set annotate=1 --set object_tracks.moving_prior=0.9 " + settings);
+    // Arrows from the first image on, whether or not it suffices to tell what moves.
+    densify(folder_, "--set annotate=1 --set object_motion.static_test=false " + settings);
   }
 
   [[nodiscard]] cv::Mat without_log() const {
