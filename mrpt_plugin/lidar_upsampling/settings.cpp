@@ -242,9 +242,9 @@ void visit_tracks(Config& c, SettingVisitor& v) {
            "white noise by which velocities change: variance per second");
   v.number("manoeuvre_m2_s3", t.noise.manoeuvre, kPositive,
            "likewise, while one brakes, pulls away, or swerves");
-  v.number("manoeuvre_change", t.manoeuvre_change, kProbability,
-           "probability, from sight to sight, that one begins or ends");
   v.number("yaw_acceleration_rad2_s3", t.noise.yaw_acceleration, kPositive, "likewise");
+  v.number("manoeuvre_change", t.manoeuvre_change, kProbability,
+           "probability, from sight to sight, that a manoeuvre begins or ends");
   v.number("birth_density_per_m2", t.birth_density, kPositive, "new objects from scan to scan");
   v.number("extent_error", t.extent_error, kPositive,
            "share of its length by which what is seen of an object shifts");

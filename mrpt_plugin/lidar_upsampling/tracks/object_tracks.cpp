@@ -55,7 +55,8 @@ void see_anew(ObjectTrack& track, const ScanObject& object, const TrackedScan& s
 void add_both(const TrackState& state, double probability, const TrackOptions& options,
               std::vector<Course>& courses) {
   const double steady = options.noise.acceleration, hard = options.noise.manoeuvre;
-  const double before = std::clamp((state.acceleration - steady) / (hard - steady), 0., 1.);
+  const double before =
+      hard == steady ? 0 : std::clamp((state.acceleration - steady) / (hard - steady), 0., 1.);
   const double change = options.manoeuvre_change;
   const double now = before * (1 - change) + (1 - before) * change;
   courses.push_back({state, probability * (1 - now)});
