@@ -6,7 +6,6 @@
 #include <limits>
 #include <stdexcept>
 #include <string>
-#include <utility>
 
 namespace lidar_upsampling {
 
@@ -27,11 +26,7 @@ class Solver {
         row_of_column_(size_, kNone) {}
 
   DenseAssignment solve() {
-    take_cheapest_rows();
-    bid();
-    for (const int row : free_rows()) {
-      augment(row);
-    }
+    for (int row = 0; row < size_; ++row) augment(row);
     DenseAssignment result{column_of_row_, Eigen::VectorXd(size_),
                            column_potential_.matrix().transpose()};
     for (int row = 0; row < size_; ++row) {
@@ -43,62 +38,6 @@ class Solver {
  private:
   [[nodiscard]] double reduced(int row, int column) const {
     return cost_(row, column) - column_potential_[column];
-  }
-
-  /// Each row takes a free column that is nowhere cheaper.
-  void take_cheapest_rows() {
-    for (int row = 0; row < size_; ++row) {
-      for (int column = 0; column < size_ && column_of_row_[row] == kNone; ++column) {
-        if (row_of_column_[column] == kNone && reduced(row, column) == 0) {
-          pair(row, column);
-        }
-      }
-    }
-  }
-
-  /// Each free row takes the column it likes best, which becomes dearer by what that is worth to
-  /// it; who held it bids next. Losers of a tie are left to augment().
-  void bid() {
-    std::vector<int> free = free_rows();
-    // Bids too small for a double's resolution would go on for ever.
-    int num_bids = 8 * size_;
-    while (!free.empty() && num_bids-- > 0) {
-      const int row = free.back();
-      free.pop_back();
-      const auto [best, second] = two_best(row);
-      const double worth = reduced(row, second) - reduced(row, best);
-      const bool tie = !(worth > 0);
-      const int column = tie && row_of_column_[best] != kNone ? second : best;
-      column_potential_[best] -= tie ? 0 : worth;
-      const int loser = row_of_column_[column];
-      pair(row, column);
-      if (loser != kNone) {
-        column_of_row_[loser] = kNone;
-        if (!tie) {
-          free.push_back(loser);
-        }
-      }
-    }
-  }
-
-  [[nodiscard]] std::pair<int, int> two_best(int row) const {
-    int best = 0, second = 0;
-    double best_cost = kInfinity, second_cost = kInfinity;
-    for (int column = 0; column < size_; ++column) {
-      const double value = reduced(row, column);
-      if (value < second_cost) {
-        if (value < best_cost) {
-          second = best;
-          second_cost = best_cost;
-          best = column;
-          best_cost = value;
-        } else {
-          second = column;
-          second_cost = value;
-        }
-      }
-    }
-    return {best, second};
   }
 
   /// A column that Dijkstra has reached for good, and how far the row that holds it starts.
@@ -132,6 +71,7 @@ class Solver {
       price[nearest] = -kInfinity;
     }
   }
+
   /// Follows the shortest path back: each column was reached by the row that makes it nearest, one
   /// of those reached before it.
   void shift_pairs(int column, const std::vector<Reached>& reached) {
@@ -152,16 +92,6 @@ class Solver {
   void pair(int row, int column) {
     column_of_row_[row] = column;
     row_of_column_[column] = row;
-  }
-
-  [[nodiscard]] std::vector<int> free_rows() const {
-    std::vector<int> free;
-    for (int row = 0; row < size_; ++row) {
-      if (column_of_row_[row] == kNone) {
-        free.push_back(row);
-      }
-    }
-    return free;
   }
 
   const CostMatrix& cost_;
