@@ -37,13 +37,20 @@ Scene ground_with_clutter(int num_points, double clutter, double slope_deg = 4) 
   return scene;
 }
 
+std::optional<PlaneFit> plane_of_all(const std::vector<Eigen::Vector3f>& points,
+                                     const PlaneOptions& options = {}) {
+  std::vector<int> all(points.size());
+  std::iota(all.begin(), all.end(), 0);
+  return estimate_plane(points, all, options);
+}
+
 double angle_deg(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   return std::acos(std::min(1., a.dot(b))) / kDegree;
 }
 
 TEST(MsacPlane, finds_the_ground_among_forty_percent_clutter) {
   const Scene scene = ground_with_clutter(20000, 0.4);
-  const auto fit = estimate_plane(scene.points);
+  const auto fit = plane_of_all(scene.points);
   ASSERT_TRUE(fit);
   EXPECT_LT(angle_deg(fit->plane.normal, scene.truth.normal), 0.02);
   EXPECT_NEAR(fit->plane.d, scene.truth.d, 0.002);
@@ -57,7 +64,7 @@ TEST(MsacPlane, noise_free_points_give_the_exact_plane) {
   for (int x = 0; x < 10; ++x) {
     for (int y = 0; y < 10; ++y) points.emplace_back(x, y, -2);
   }
-  const auto fit = estimate_plane(points);
+  const auto fit = plane_of_all(points);
   ASSERT_TRUE(fit);
   EXPECT_LT((fit->plane.normal - Eigen::Vector3d::UnitZ()).norm(), 1e-9);
   EXPECT_NEAR(fit->plane.d, 2, 1e-9);
@@ -72,7 +79,7 @@ TEST(MsacPlane, a_wall_is_no_ground_however_many_points_it_has) {
                                 0.2F * static_cast<float>(row));
     }
   }
-  const auto fit = estimate_plane(scene.points);
+  const auto fit = plane_of_all(scene.points);
   ASSERT_TRUE(fit);
   EXPECT_LT(angle_deg(fit->plane.normal, scene.truth.normal), 0.3);
 }
@@ -82,16 +89,16 @@ TEST(MsacPlane, a_slope_beyond_max_tilt_is_not_found) {
   PlaneOptions options;
   options.inlier_distance_m = 0.05;
   options.min_inliers = 500;
-  EXPECT_FALSE(estimate_plane(scene.points, options));
+  EXPECT_FALSE(plane_of_all(scene.points, options));
   options.max_tilt_deg = 40;
-  EXPECT_TRUE(estimate_plane(scene.points, options));
+  EXPECT_TRUE(plane_of_all(scene.points, options));
 }
 
 TEST(MsacPlane, the_normal_points_to_the_up_axis_given) {
   const Scene scene = ground_with_clutter(2000, 0.2);
   PlaneOptions options;
   options.up = -2 * Eigen::Vector3d::UnitZ();
-  const auto fit = estimate_plane(scene.points, options);
+  const auto fit = plane_of_all(scene.points, options);
   ASSERT_TRUE(fit);
   EXPECT_LT(fit->plane.normal.z(), 0);
   EXPECT_NEAR(fit->plane.d, -scene.truth.d, 0.01);
@@ -115,27 +122,27 @@ TEST(MsacPlane, only_the_points_of_the_subset_count) {
 
 TEST(MsacPlane, the_same_seed_gives_the_same_plane) {
   const Scene scene = ground_with_clutter(20000, 0.4);
-  const auto first = estimate_plane(scene.points);
-  const auto second = estimate_plane(scene.points);
+  const auto first = plane_of_all(scene.points);
+  const auto second = plane_of_all(scene.points);
   ASSERT_TRUE(first && second);
   EXPECT_EQ(first->plane.normal, second->plane.normal);
   EXPECT_EQ(first->plane.d, second->plane.d);
 }
 
 TEST(MsacPlane, too_few_points_give_none) {
-  EXPECT_FALSE(estimate_plane({}));
-  EXPECT_FALSE(estimate_plane({{0, 0, 0}, {1, 0, 0}}));
-  EXPECT_FALSE(estimate_plane({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}));
+  EXPECT_FALSE(plane_of_all({}));
+  EXPECT_FALSE(plane_of_all({{0, 0, 0}, {1, 0, 0}}));
+  EXPECT_FALSE(plane_of_all({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}));
 }
 
 TEST(MsacPlane, wrong_input_is_refused) {
   const Scene scene = ground_with_clutter(100, 0);
   PlaneOptions options;
   options.inlier_distance_m = 0;
-  EXPECT_THROW((void)estimate_plane(scene.points, options), std::invalid_argument);
+  EXPECT_THROW((void)plane_of_all(scene.points, options), std::invalid_argument);
   options = {};
   options.up.setZero();
-  EXPECT_THROW((void)estimate_plane(scene.points, options), std::invalid_argument);
+  EXPECT_THROW((void)plane_of_all(scene.points, options), std::invalid_argument);
   EXPECT_THROW((void)estimate_plane(scene.points, std::vector<int>{100}), std::invalid_argument);
 }
 

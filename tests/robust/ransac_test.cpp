@@ -32,6 +32,8 @@ struct Consensus {
     }
     return score;
   }
+
+  static void refine_model(double& /*model*/) {}
 };
 
 struct RoundingConsensus : Consensus {

@@ -118,32 +118,41 @@ class MsacPlane {
   float distance_;
 };
 
-/// `count` of the `size` points, each equally likely: one from each of `count` equal stretches.
-template <typename PointAt>
-Eigen::Matrix3Xf subsample(std::size_t size, std::size_t count, const PointAt& point_at,
-                           std::uint32_t seed) {
+/// The points at `count` of the indices, each equally likely: one from each of `count` equal
+/// stretches.
+Eigen::Matrix3Xf subsample(const std::vector<Eigen::Vector3f>& points,
+                           const std::vector<int>& indices, std::size_t count, std::uint32_t seed) {
+  const std::size_t size = indices.size();
   Eigen::Matrix3Xf chosen(3, static_cast<Eigen::Index>(std::min(size, count)));
   if (size <= count) {
-    for (std::size_t i = 0; i < size; ++i) chosen.col(static_cast<Eigen::Index>(i)) = point_at(i);
+    for (std::size_t i = 0; i < size; ++i)
+      chosen.col(static_cast<Eigen::Index>(i)) = points[static_cast<std::size_t>(indices[i])];
     return chosen;
   }
   std::mt19937 generator(seed);
   const double stretch = static_cast<double>(size) / static_cast<double>(count);
   for (std::size_t i = 0; i < count; ++i) {
     const double at = (static_cast<double>(i) + generator() * 0x1p-32) * stretch;
-    chosen.col(static_cast<Eigen::Index>(i)) =
-        point_at(std::min(size - 1, static_cast<std::size_t>(at)));
+    const int index = indices[std::min(size - 1, static_cast<std::size_t>(at))];
+    chosen.col(static_cast<Eigen::Index>(i)) = points[static_cast<std::size_t>(index)];
   }
   return chosen;
 }
 
-template <typename PointAt>
-std::optional<PlaneFit> estimate(std::size_t size, const PointAt& point_at,
-                                 const PlaneOptions& options) {
+}  // namespace
+
+std::optional<PlaneFit> estimate_plane(const std::vector<Eigen::Vector3f>& points,
+                                       const std::vector<int>& indices,
+                                       const PlaneOptions& options) {
   check(options);
-  MsacPlane estimator(subsample(size, static_cast<std::size_t>(options.max_scored_points), point_at,
-                                options.ransac.seed),
-                      options);
+  for (const int index : indices) {
+    if (index < 0 || static_cast<std::size_t>(index) >= points.size()) {
+      throw std::invalid_argument("plane: index " + std::to_string(index) + " into " +
+                                  std::to_string(points.size()) + " points");
+    }
+  }
+  const auto max_points = static_cast<std::size_t>(options.max_scored_points);
+  MsacPlane estimator(subsample(points, indices, max_points, options.ransac.seed), options);
   const auto found = ransac(estimator, options.ransac);
   if (!found.model) return std::nullopt;
 
@@ -151,8 +160,8 @@ std::optional<PlaneFit> estimate(std::size_t size, const PointAt& point_at,
     const Eigen::Vector3f normal = plane.normal.cast<float>();
     const auto d = static_cast<float>(plane.d);
     const auto limit = static_cast<float>(options.inlier_distance_m);
-    for (std::size_t i = 0; i < size; ++i) {
-      const Eigen::Vector3f& point = point_at(i);
+    for (const int index : indices) {
+      const Eigen::Vector3f& point = points[static_cast<std::size_t>(index)];
       if (std::abs(normal.dot(point) + d) < limit) action(point.cast<double>());
     }
   };
@@ -171,33 +180,7 @@ std::optional<PlaneFit> estimate(std::size_t size, const PointAt& point_at,
   });
   if (fit.num_inliers < options.min_inliers) return std::nullopt;
   fit.rmse_m = std::sqrt(sum_sq / std::max(1, fit.num_inliers));
-  fit.iterations = found.stats.iterations;
   return fit;
-}
-
-}  // namespace
-
-std::optional<PlaneFit> estimate_plane(const std::vector<Eigen::Vector3f>& points,
-                                       const PlaneOptions& options) {
-  return estimate(
-      points.size(), [&](std::size_t i) -> const Eigen::Vector3f& { return points[i]; }, options);
-}
-
-std::optional<PlaneFit> estimate_plane(const std::vector<Eigen::Vector3f>& points,
-                                       const std::vector<int>& indices,
-                                       const PlaneOptions& options) {
-  for (const int index : indices) {
-    if (index < 0 || static_cast<std::size_t>(index) >= points.size()) {
-      throw std::invalid_argument("plane: index " + std::to_string(index) + " into " +
-                                  std::to_string(points.size()) + " points");
-    }
-  }
-  return estimate(
-      indices.size(),
-      [&](std::size_t i) -> const Eigen::Vector3f& {
-        return points[static_cast<std::size_t>(indices[i])];
-      },
-      options);
 }
 
 }  // namespace lidar_upsampling

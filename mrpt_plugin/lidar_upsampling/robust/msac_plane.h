@@ -33,19 +33,14 @@ struct PlaneFit {
   Plane plane;          ///< its normal points up
   int num_inliers = 0;  ///< among all points
   double rmse_m = 0;    ///< of the inliers
-  int iterations = 0;
 };
 
 /// @brief The dominant plane, by MSAC (Torr & Zisserman, MLESAC, CVIU 2000, sec. 3) and least
 /// squares on its inliers.
 /// @param points metres, any frame.
+/// @param indices of the points that count.
 /// @return none if no plane of that tilt has `min_inliers`.
-/// @throw std::invalid_argument options out of range.
-[[nodiscard]] std::optional<PlaneFit> estimate_plane(const std::vector<Eigen::Vector3f>& points,
-                                                     const PlaneOptions& options = {});
-
-/// @brief The same on a subset.
-/// @param indices into `points`; std::invalid_argument if one lies outside.
+/// @throw std::invalid_argument options out of range, or an index that lies outside.
 [[nodiscard]] std::optional<PlaneFit> estimate_plane(const std::vector<Eigen::Vector3f>& points,
                                                      const std::vector<int>& indices,
                                                      const PlaneOptions& options = {});

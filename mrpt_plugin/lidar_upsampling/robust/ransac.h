@@ -11,8 +11,6 @@
 #include <random>
 #include <stdexcept>
 #include <string>
-#include <type_traits>
-#include <utility>
 #include <vector>
 
 namespace lidar_upsampling {
@@ -57,13 +55,6 @@ inline void check(const RansacOptions& options) {
 
 namespace ransac_detail {
 
-template <typename Estimator, typename = void>
-struct HasRefineModel : std::false_type {};
-template <typename Estimator>
-struct HasRefineModel<Estimator, std::void_t<decltype(std::declval<Estimator&>().refine_model(
-                                     std::declval<typename Estimator::Model&>()))>>
-    : std::true_type {};
-
 /// N different indices below `num_data`. The standard's distributions differ between libraries,
 /// this does not.
 template <std::size_t N>
@@ -101,22 +92,20 @@ void keep_better(Estimator& estimator, typename Estimator::Model model,
   const ModelScore score = estimator.score_model(model);
   if (!(score.cost < best.stats.cost)) return;
   keep(model, score);
-  if constexpr (HasRefineModel<Estimator>::value) {
-    estimator.refine_model(model);
-    const ModelScore refined = estimator.score_model(model);
-    if (refined.cost < score.cost) keep(model, refined);
-  }
+  estimator.refine_model(model);
+  const ModelScore refined = estimator.score_model(model);
+  if (refined.cost < score.cost) keep(model, refined);
 }
 
 }  // namespace ransac_detail
 
 /// @brief The one hypothesise-and-test loop; the estimator of lowest cost wins (Fischler & Bolles
-/// 1981; with `refine_model`, the local optimisation of Chum, Matas & Kittler 2003).
+/// 1981; with `refine_model` as the local optimisation of Chum, Matas & Kittler 2003).
 ///
 /// An estimator has a type `Model`, `static constexpr std::size_t sample_size`, `int num_data()`,
 /// `void generate_models(const std::array<int, sample_size>&, std::vector<Model>*)`,
-/// `ModelScore score_model(const Model&)` and, if it wants, `void refine_model(Model&)`, called for
-/// each new best model and kept where it lowers the cost.
+/// `ModelScore score_model(const Model&)` and `void refine_model(Model&)`, called for each new best
+/// model and kept where it lowers the cost.
 /// @param initial scored before all samples, if given.
 /// @throw std::invalid_argument options out of range.
 template <typename Estimator>
