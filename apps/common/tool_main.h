@@ -13,7 +13,7 @@
 #include <string>
 #include <utility>
 
-#include "lidar_upsampling/io/mrpt_errors.h"
+#include "lidar_upsampling/text.h"
 
 namespace lidar_upsampling {
 

@@ -49,7 +49,7 @@ struct Neighbours {
 class Insertion {
  public:
   Insertion(const DensifyJob& job, const LogIndex& index, DensifyReport& report)
-      : report_(report), form_(output_form(job.config)), run_(job, index, report) {}
+      : report_(report), config_(job.config), run_(job, index, report) {}
 
   Neighbours feed(const CObservation::Ptr& observation) {
     Neighbours result;
@@ -69,14 +69,14 @@ class Insertion {
  private:
   std::vector<CObservation::Ptr> out(const VirtualScan& scan) {
     const Timed packing(report_, "packing");
-    auto observations = virtual_observations(scan, form_, *run_.last_real());
+    auto observations = virtual_observations(scan, config_, *run_.last_real());
     if (report_.carrier.empty())
       report_.carrier = observations.front()->GetRuntimeClass()->className;
     return observations;
   }
 
   DensifyReport& report_;
-  OutputForm form_;
+  const Config& config_;
   Densification run_;
 };
 

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "lidar_upsampling/scene/object_boxes.h"
+#include "lidar_upsampling/scene/object_scene.h"
 #include "lidar_upsampling/types.h"
 
 namespace lidar_upsampling {

@@ -30,7 +30,6 @@ struct EvaluationOptions {
   bool chamfer = true;        ///< whole clouds' distances, too
   bool exact_emd = false;     ///< the exact assignment beside the published approximation
   std::optional<Protocol> protocol;
-  MovingOptions moving;
   ObjectRegistrationOptions registration;
   LabelScoreOptions labels;
 };

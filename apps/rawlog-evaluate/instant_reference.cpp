@@ -92,7 +92,7 @@ ObjectReference referenced(const ObjectReference& object, const Between& between
     result.motion.T_lidar_t_lidar_k = T_ego;
     result.motion.sigma_m = ego_sigma_at(between, result.motion.centroid_k);
   }
-  result.speed = ground_speed(result.motion, T_ego, dt);
+  result.speed = velocity_error(result.motion, T_ego, dt);
   return result;
 }
 
@@ -184,7 +184,7 @@ void RegisteredMotions::find(const LidarScan& scan, const std::vector<int>& whic
     const ReferenceMotion motion{object.motion.centroid_k, found.T_target_object,
                                  std::hypot(0.02, found.spread_m)};
     result = {true, found.status, motion.T_lidar_t_lidar_k, motion.sigma_m,
-              is_moving(motion, T_ego, dt, options_.moving)};
+              is_moving(motion, T_ego, dt)};
   });
 }
 
@@ -209,7 +209,7 @@ std::optional<InstantReference> reference_by_truth(const Truth& truth,
     ObjectReference& placed = reference.objects.back();
     placed.motion = {object.motion.centroid_k, *motion, 0};
     placed.moving = box->moves_at(request.stamp);
-    placed.speed = ground_speed(placed.motion, *T_ego, seconds_between(key.stamp, request.stamp));
+    placed.speed = velocity_error(placed.motion, *T_ego, seconds_between(key.stamp, request.stamp));
   }
   reference.scan = reference.interpolated ? brought_to(truth, nearest, request.stamp) : nearest;
   return reference;

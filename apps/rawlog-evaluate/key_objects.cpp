@@ -128,8 +128,7 @@ void LastMotions::find(std::vector<ObjectReference>& objects, const std::vector<
 
 std::vector<ReportedObject> constant_velocity_rows(const std::vector<ObjectReference>& objects,
                                                    const std::vector<int>& which, const Pose& T_ego,
-                                                   double dt, std::int64_t told_at,
-                                                   const MovingOptions& options) {
+                                                   double dt, std::int64_t told_at) {
   std::vector<ReportedObject> rows;
   for (const int i : which) {
     const ObjectReference& object = objects[i];
@@ -140,7 +139,7 @@ std::vector<ReportedObject> constant_velocity_rows(const std::vector<ObjectRefer
     ReportedObject row;
     row.stamp = told_at;
     row.points = static_cast<int>(object.points.size());
-    row.moving = is_moving(step, Pose::Identity(), dt_last, options);
+    row.moving = is_moving(step, Pose::Identity(), dt_last);
     const Eigen::Vector3d moved = exp_se3(Twist(dt * per_second)) * centre;
     row.position = T_ego * moved;
     row.velocity = T_ego.linear() * (moved - centre) / dt;

@@ -44,6 +44,6 @@ class LastMotions {
 /// @param T_ego T_lidar_t_lidar_k. @param dt s, since the key scan.
 [[nodiscard]] std::vector<ReportedObject> constant_velocity_rows(
     const std::vector<ObjectReference>& objects, const std::vector<int>& which, const Pose& T_ego,
-    double dt, std::int64_t told_at, const MovingOptions& options);
+    double dt, std::int64_t told_at);
 
 }  // namespace lidar_upsampling

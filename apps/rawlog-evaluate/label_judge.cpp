@@ -47,8 +47,7 @@ void LabelJudge::note(Stamp stamp, Stamp told_at) {
   const Pose T_ego = instant->T_lidar_k_lidar_t.inverse();
   const auto seen = in_scope(clusters_, *key_, T_ego, cameras_, options_);
   if (last_motions_ != nullptr) last_motions_->find(clusters_, seen, *key_);
-  const auto rows = constant_velocity_rows(clusters_, seen, T_ego, instant->dt, instant->told_at,
-                                           options_.moving);
+  const auto rows = constant_velocity_rows(clusters_, seen, T_ego, instant->dt, instant->told_at);
   constant_velocity_.insert(constant_velocity_.end(), rows.begin(), rows.end());
   instants_.push_back(std::move(*instant));
 }

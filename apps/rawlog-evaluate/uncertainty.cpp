@@ -18,12 +18,6 @@ struct Errors {
   std::vector<double> normalised, sigma, length;
 };
 
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 const ReportedObject* reported(const ScanResult& scan, const Eigen::Vector3d& place,
                                const std::multimap<std::int64_t, const ReportedObject*>& rows) {
   const auto [first, last] = rows.equal_range(scan.stamp.time_since_epoch().count());

@@ -45,16 +45,10 @@ class Loader : public SettingVisitor {
   void number(const char* key, double& value, Range range, const char*) override {
     const auto text = read(key);
     if (!text) return;
-    std::size_t used = 0;
-    double read_value = 0;
-    try {
-      read_value = std::stod(*text, &used);
-    } catch (const std::exception&) {
-    }
-    if (used == 0 || used != text->size() || !std::isfinite(read_value))
-      fail(key, *text, "a number is expected");
-    check(key, *text, read_value, range);
-    value = read_value;
+    const auto read_value = number_in(*text);
+    if (!read_value) fail(key, *text, "a number is expected");
+    check(key, *text, *read_value, range);
+    value = *read_value;
   }
 
   void integer(const char* key, int& value, Range range, const char* comment) override {
@@ -137,44 +131,9 @@ class Loader : public SettingVisitor {
   std::set<std::string> known_;
 };
 
-class Saver : public SettingVisitor {
+// Tells each setting as a line of text.
+class Writer : public SettingVisitor {
  public:
-  Saver(CConfigFileBase& target, std::string main_section)
-      : target_(target), main_section_(std::move(main_section)) {}
-
-  void section(const std::string& name, const std::string&) override {
-    section_ = name.empty() ? main_section_ : name;
-  }
-  void number(const char* key, double& value, Range, const char*) override {
-    target_.write(section_, key, to_text(value));
-  }
-  void integer(const char* key, int& value, Range, const char*) override {
-    target_.write(section_, key, std::to_string(value));
-  }
-  void flag(const char* key, bool& value, const char*) override {
-    target_.write(section_, key, std::string(value ? "true" : "false"));
-  }
-  void text(const char* key, std::string& value, const char*) override {
-    target_.write(section_, key, value);
-  }
-  void list(const char* key, std::vector<std::string>& value, const char*) override {
-    target_.write(section_, key, joined(value, ","));
-  }
-  void choice(const char* key, int& value, const Choices& choices, const char*) override {
-    target_.write(section_, key, choices.at(value));
-  }
-
- private:
-  CConfigFileBase& target_;
-  std::string main_section_, section_;
-};
-
-class Documenter : public SettingVisitor {
- public:
-  void section(const std::string& name, const std::string& comment) override {
-    text_ << (text_.tellp() > 0 ? "\n" : "") << "# " << comment << "\n["
-          << (name.empty() ? kMainSection : name) << "]\n";
-  }
   void number(const char* key, double& value, Range, const char* comment) override {
     line(key, to_text(value), comment);
   }
@@ -193,12 +152,42 @@ class Documenter : public SettingVisitor {
   void choice(const char* key, int& value, const Choices& choices, const char* comment) override {
     line(key, choices.at(value), std::string(comment) + " (" + joined(choices, " | ") + ")");
   }
+
+ protected:
+  virtual void line(const char* key, const std::string& value, const std::string& comment) = 0;
+};
+
+class Saver : public Writer {
+ public:
+  Saver(CConfigFileBase& target, std::string main_section)
+      : target_(target), main_section_(std::move(main_section)) {}
+
+  void section(const std::string& name, const std::string&) override {
+    section_ = name.empty() ? main_section_ : name;
+  }
+
+ private:
+  void line(const char* key, const std::string& value, const std::string&) override {
+    target_.write(section_, key, value);
+  }
+
+  CConfigFileBase& target_;
+  std::string main_section_, section_;
+};
+
+class Documenter : public Writer {
+ public:
+  void section(const std::string& name, const std::string& comment) override {
+    text_ << (text_.tellp() > 0 ? "\n" : "") << "# " << comment << "\n["
+          << (name.empty() ? kMainSection : name) << "]\n";
+  }
   [[nodiscard]] std::string result() const { return text_.str(); }
 
  private:
-  void line(const char* key, const std::string& value, const std::string& comment) {
+  void line(const char* key, const std::string& value, const std::string& comment) override {
     text_ << "# " << comment << '\n' << key << " =" << (value.empty() ? "" : " ") << value << '\n';
   }
+
   std::ostringstream text_;
 };
 

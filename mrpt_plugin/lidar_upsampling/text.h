@@ -2,8 +2,13 @@
 // Copyright (c) 2026, the lidar_upsampling authors
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+#include <exception>
+#include <optional>
 #include <sstream>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace lidar_upsampling {
@@ -23,6 +28,32 @@ namespace lidar_upsampling {
   for (std::string field; std::getline(stream, field, ',');)
     fields.push_back(trimmed(field, blanks));
   return fields;
+}
+
+/// The finite number that the text is from end to end; none: it is something else.
+[[nodiscard]] inline std::optional<double> number_in(const std::string& text) {
+  std::size_t used = 0;
+  double value = 0;
+  try {
+    value = std::stod(text, &used);
+  } catch (const std::exception&) {
+    return std::nullopt;
+  }
+  return used == text.size() && std::isfinite(value) ? std::make_optional(value) : std::nullopt;
+}
+
+/// @brief What an exception says, in one line: MRPT's own carry a call stack behind the message.
+[[nodiscard]] inline std::string one_line(const std::exception& error) {
+  std::string_view text = error.what();
+  // MRPT's layout is "==== MRPT exception ====\nMessage: ...\nMsg prefix: ...\nLocation: ...".
+  constexpr std::string_view kMark = "Message:";
+  const auto at = text.find(kMark);
+  if (text.find("MRPT exception") < at && at != std::string_view::npos) {
+    text.remove_prefix(at + kMark.size());
+  }
+  text.remove_prefix(std::min(text.size(), text.find_first_not_of(" \t\n")));
+  text = text.substr(0, text.find('\n'));
+  return std::string(text);
 }
 
 }  // namespace lidar_upsampling

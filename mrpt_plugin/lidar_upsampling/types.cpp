@@ -8,33 +8,14 @@
 namespace lidar_upsampling {
 
 const char* to_string(MotionStatus status) {
-  switch (status) {
-    case MotionStatus::moving:
-      return "moving";
-    case MotionStatus::stationary:
-      return "stationary";
-    case MotionStatus::predicted:
-      return "predicted";
-    case MotionStatus::too_few_points:
-      return "too_few_points";
-    case MotionStatus::no_consensus:
-      return "no_consensus";
-  }
-  return "unknown";
+  constexpr std::array<const char*, 5> kNames{"moving", "stationary", "predicted", "too_few_points",
+                                              "no_consensus"};
+  return kNames.at(static_cast<std::size_t>(status));
 }
 
 const char* to_string(Resampling resampling) {
-  switch (resampling) {
-    case Resampling::none:
-      return "none";
-    case Resampling::done:
-      return "done";
-    case Resampling::little_motion:
-      return "little_motion";
-    case Resampling::no_beams:
-      return "no_beams";
-  }
-  return "unknown";
+  constexpr std::array<const char*, 4> kNames{"none", "done", "little_motion", "no_beams"};
+  return kNames.at(static_cast<std::size_t>(resampling));
 }
 
 double intersection_over_union(const Box2d& a, const Box2d& b) {

@@ -195,6 +195,15 @@ struct VirtualScan {
 /// Its square root in the least certain direction, m; 0: not known.
 [[nodiscard]] double position_sigma(const ObjectMotion& object);
 
+/// @brief The middle one, of an even number the upper of both.
+/// @param values at least one.
+template <typename T>
+[[nodiscard]] T median(std::vector<T> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
 /// @return zero of no points.
 [[nodiscard]] Eigen::Vector3d mean_of(const std::vector<Eigen::Vector3f>& points);
 

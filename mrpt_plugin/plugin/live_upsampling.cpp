@@ -12,7 +12,7 @@
 
 #include "lidar_upsampling/io/ego_samples.h"
 #include "lidar_upsampling/io/images.h"
-#include "lidar_upsampling/io/mrpt_errors.h"
+#include "lidar_upsampling/text.h"
 
 namespace lidar_upsampling {
 
@@ -25,7 +25,6 @@ LiveUpsampling::LiveUpsampling(const Config& config, const RigOverrides& rig, Me
       rig_(rig),
       messages_(messages),
       upsampler_(config),
-      form_(output_form(config)),
       has_given_poses_(!given_poses.empty()) {
   for (const PoseSample& sample : given_poses) upsampler_.ego_motion().add_pose(sample);
   if (!config.camera_labels.empty()) upsampler_.expect_cameras(config.camera_labels);
@@ -150,7 +149,7 @@ void LiveUpsampling::place(const std::optional<VirtualScan>& scan) {
   const Stamp stamp = scan->scan.stamp;
   std::vector<Emitted> emitted;
   try {
-    for (const auto& observation : virtual_observations(*scan, form_, *last_real_))
+    for (const auto& observation : virtual_observations(*scan, config_, *last_real_))
       emitted.push_back({observation, {}});
   } catch (const std::exception& error) {
     messages_.add("a virtual scan is left out: " + one_line(error));

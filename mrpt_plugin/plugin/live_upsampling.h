@@ -50,7 +50,6 @@ class LiveUpsampling : public Upsampling {
   const RigOverrides& rig_;
   Messages& messages_;
   LidarUpsampler upsampler_;
-  OutputForm form_;
   bool has_given_poses_;
   mrpt::obs::CObservation::Ptr last_real_;
   std::set<std::string> cameras_;

@@ -8,7 +8,7 @@
 
 #include <utility>
 
-#include "lidar_upsampling/io/mrpt_errors.h"
+#include "lidar_upsampling/text.h"
 
 namespace lidar_upsampling {
 

@@ -6,7 +6,7 @@
 #include <iterator>
 #include <utility>
 
-#include "lidar_upsampling/io/mrpt_errors.h"
+#include "lidar_upsampling/text.h"
 
 namespace lidar_upsampling {
 

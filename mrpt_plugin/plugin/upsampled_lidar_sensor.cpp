@@ -10,7 +10,7 @@
 
 #include "lidar_upsampling/front_end/pose_input.h"
 #include "lidar_upsampling/io/external_storage.h"
-#include "lidar_upsampling/io/mrpt_errors.h"
+#include "lidar_upsampling/text.h"
 #include "plugin/live_upsampling.h"
 #include "plugin/log_player.h"
 

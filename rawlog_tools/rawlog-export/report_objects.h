@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "lidar_upsampling/scene/object_boxes.h"
+#include "lidar_upsampling/scene/object_scene.h"
 
 namespace lidar_upsampling::exporting {
 

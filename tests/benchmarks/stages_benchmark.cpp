@@ -84,7 +84,7 @@ void ground_and_clusters(benchmark::State& state) {
 void road_users(benchmark::State& state) {
   const Inputs& in = inputs();
   std::size_t found = 0;
-  while (state.KeepRunning()) found = road_user_clusters(in.scan, in.segments, {}).size();
+  while (state.KeepRunning()) found = why_no_road_users(in.scan, in.segments, {}).size();
   state.counters["objects"] = static_cast<double>(found);
 }
 
@@ -140,7 +140,7 @@ void pose_100_points(benchmark::State& state) {
 
 void camera_ego(benchmark::State& state) {
   const Inputs& in = inputs();
-  const std::vector<std::uint8_t> no_candidates;
+  const std::vector<std::uint8_t> no_candidates(in.projected.size(), 0);
   const auto chosen = choose_static_points(
       {in.projected, in.unreliable, no_candidates, in.texture.size(), in.texture});
   PointTracks tracks;

@@ -24,9 +24,12 @@ std::vector<ProjectedPoint> dense_points() {
   return points;
 }
 
+cv::Mat even_texture() { return {kHeight, kWidth, CV_32FC1, cv::Scalar(0.01)}; }
+
 TEST(StaticPoints, are_spread_over_the_whole_picture) {
   const auto points = dense_points();
-  const auto chosen = choose_static_points({points, {}, {}, {kWidth, kHeight}, {}});
+  const std::vector<std::uint8_t> none(points.size(), 0);
+  const auto chosen = choose_static_points({points, none, none, {kWidth, kHeight}, even_texture()});
   EXPECT_LE(chosen.size(), 300U);
   std::set<std::pair<int, int>> cells;
   for (const int i : chosen) {
@@ -42,7 +45,8 @@ TEST(StaticPoints, keep_away_from_objects_and_unreliable_points) {
     unreliable[i] = points[i].u < 100;
     candidate[i] = points[i].u > 200 && points[i].u < 300;
   }
-  const auto chosen = choose_static_points({points, unreliable, candidate, {kWidth, kHeight}, {}});
+  const auto chosen =
+      choose_static_points({points, unreliable, candidate, {kWidth, kHeight}, even_texture()});
   ASSERT_FALSE(chosen.empty());
   for (const int i : chosen) {
     EXPECT_GE(points[i].u, 100);
@@ -50,12 +54,13 @@ TEST(StaticPoints, keep_away_from_objects_and_unreliable_points) {
   }
 }
 
-TEST(StaticPoints, prefer_texture_where_it_is_known) {
+TEST(StaticPoints, prefer_texture) {
   const auto points = dense_points();
   cv::Mat texture(kHeight, kWidth, CV_32FC1, cv::Scalar(0));
   texture.colRange(240, kWidth) = 0.01;
   texture.at<float>(50, 302) = 1;
-  const auto chosen = choose_static_points({points, {}, {}, {kWidth, kHeight}, texture});
+  const std::vector<std::uint8_t> none(points.size(), 0);
+  const auto chosen = choose_static_points({points, none, none, {kWidth, kHeight}, texture});
   EXPECT_TRUE(std::all_of(chosen.begin(), chosen.end(), [&](int i) { return points[i].u >= 240; }));
   EXPECT_TRUE(std::any_of(chosen.begin(), chosen.end(),
                           [&](int i) { return points[i].u == 302 && points[i].v == 50; }));
@@ -63,8 +68,9 @@ TEST(StaticPoints, prefer_texture_where_it_is_known) {
 
 TEST(StaticPoints, flags_of_another_length_are_refused) {
   const auto points = dense_points();
-  const std::vector<std::uint8_t> flags(3, 0);
-  EXPECT_THROW(static_cast<void>(choose_static_points({points, flags, {}, {kWidth, kHeight}, {}})),
+  const std::vector<std::uint8_t> none(points.size(), 0), flags(3, 0);
+  EXPECT_THROW(static_cast<void>(
+                   choose_static_points({points, flags, none, {kWidth, kHeight}, even_texture()})),
                std::invalid_argument);
 }
 

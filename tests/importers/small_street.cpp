@@ -13,7 +13,7 @@
 #include <sstream>
 
 #include "lidar_upsampling/io/images.h"
-#include "lidar_upsampling/objects/csv_detector.h"
+#include "lidar_upsampling/objects/detector.h"
 #include "simulator/truth.h"
 
 namespace lidar_upsampling {
@@ -170,14 +170,14 @@ void expect_boxes_fit(const std::string& boxes_csv, const SmallStreet& street,
   CsvDetectorOptions options;
   options.path = boxes_csv;
   options.stamp_tolerance_ms = 0.001;
-  CsvDetector detector(options);
+  const auto detector = make_csv_detector(options);
   const sim::CameraRenderer renderer(street.camera);
   std::size_t num_checked = 0;
   for (std::size_t i = 0; i < rendered.size(); ++i) {
     CameraImage image;
     image.stamp = logged[i];
     image.camera.label = label;
-    const std::vector<Detection> boxes = detector.detect({image});
+    const std::vector<Detection> boxes = detector->detect({image});
     for (const Detection& box : boxes) {
       EXPECT_GE(box.box.left, 0);
       EXPECT_GE(box.box.top, 0);

@@ -82,9 +82,10 @@ void expect_same_intensity(const LidarScan& read, const LidarScan& scan, float t
 }
 
 TEST(Carriers, names_are_those_of_the_settings) {
-  for (const char* const name : {"auto", "3drangescan", "pointcloud", "same"}) {
-    EXPECT_STREQ(to_string(carrier_from_string(name)), name);
-  }
+  EXPECT_EQ(carrier_from_string("auto"), Carrier::automatic);
+  EXPECT_EQ(carrier_from_string("3drangescan"), Carrier::range_scan_3d);
+  EXPECT_EQ(carrier_from_string("pointcloud"), Carrier::point_cloud);
+  EXPECT_EQ(carrier_from_string("same"), Carrier::same);
   EXPECT_THROW(static_cast<void>(carrier_from_string("velodyne")), std::invalid_argument);
 }
 

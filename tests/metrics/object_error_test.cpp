@@ -167,7 +167,7 @@ TEST(ObjectError, is_recovered_from_points_alone_when_the_carrier_lost_the_rings
 TEST(ObjectError, moving_means_over_ground_and_beyond_doubt) {
   const Scene driving(kOncomingK, kOncomingT), parked(kOncomingK, kOncomingK);
   EXPECT_TRUE(is_moving(driving.truth(), driving.T_ego, 0.1));
-  EXPECT_NEAR(ground_speed(driving.truth(), driving.T_ego, 0.1), 10, 0.5);
+  EXPECT_NEAR(velocity_error(driving.truth(), driving.T_ego, 0.1), 10, 0.5);
   EXPECT_FALSE(is_moving(parked.truth(), parked.T_ego, 0.1));
   ReferenceMotion vague = driving.truth();
   vague.sigma_m = 0.5;

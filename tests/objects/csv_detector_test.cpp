@@ -1,29 +1,36 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the lidar_upsampling authors
-#include "lidar_upsampling/objects/csv_detector.h"
-
 #include <gtest/gtest.h>
+#include <unistd.h>
 
-#include <sstream>
+#include <filesystem>
+#include <fstream>
+
+#include "lidar_upsampling/objects/detector.h"
+#include "lidar_upsampling/stamp_text.h"
 
 namespace lidar_upsampling {
 namespace {
 
-std::vector<Detection> detect(CsvDetector& detector, const std::string& label, Stamp stamp) {
+std::vector<Detection> detect(Detector& detector, const std::string& label, Stamp stamp) {
   CameraImage image;
   image.stamp = stamp;
   image.camera.label = label;
   return detector.detect({image});
 }
 
-CsvDetector from(const std::string& rows) {
-  std::istringstream stream(rows);
-  return CsvDetector(stream, "boxes.csv", 5);
+std::unique_ptr<Detector> from(const std::string& rows) {
+  const auto folder = std::filesystem::path(::testing::TempDir()) / std::to_string(getpid());
+  std::filesystem::create_directories(folder);
+  CsvDetectorOptions options;
+  options.path = folder / "boxes.csv";
+  std::ofstream(options.path) << rows;
+  return make_csv_detector(options);
 }
 
 std::string error_of(const std::string& rows) {
   try {
-    from(rows);
+    static_cast<void>(from(rows));
   } catch (const std::runtime_error& error) {
     return error.what();
   }
@@ -48,13 +55,14 @@ TEST(ParseStamp, what_is_neither_ticks_nor_seconds_is_refused) {
 }
 
 TEST(CsvDetector, gives_the_boxes_of_the_label_at_the_nearest_stamp) {
-  CsvDetector detector = from(
+  const auto made = from(
       "label,stamp,class,score,left,top,right,bottom,track\r\n"
       "CAM2,100.0,car,0.9,1,2,30,40,5\r\n"
       "CAM2, 100.0, person,,50,2,60,40\n"
       "\n"
       "CAM3,100.0,bus,1,1,2,30,40\n"
       "CAM2,100.1,truck,1,1,2,30,40\n");
+  Detector& detector = *made;
   const Stamp stamp = parse_stamp("100.003");
   const auto found = detect(detector, "CAM2", stamp);
   ASSERT_EQ(found.size(), 2U);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the lidar_upsampling authors
-#include "lidar_upsampling/objects/hidden_foot.h"
+#include "lidar_upsampling/objects/road_users.h"
 
 #include <gtest/gtest.h>
 

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the lidar_upsampling authors
-#include "lidar_upsampling/objects/network_detector.h"
-
 #include <gtest/gtest.h>
 
 #include <cstdlib>
 #include <filesystem>
 #include <opencv2/imgcodecs.hpp>
+
+#include "lidar_upsampling/objects/detector.h"
+#include "lidar_upsampling/objects/network_output.h"
 
 namespace lidar_upsampling {
 namespace {
@@ -111,9 +112,9 @@ CameraImage lead_car_image(const fs::path& data) {
 void expect_lead_car(const NetworkDetectorOptions& options, const fs::path& data) {
   const CameraImage image = lead_car_image(data);
   if (image.bgr.empty()) GTEST_SKIP() << "no image of drive 0052 in " << data;
-  NetworkDetector detector(options);
+  const auto detector = make_network_detector(options);
   double best = 0;
-  for (const Detection& detection : detector.detect({image})) {
+  for (const Detection& detection : detector->detect({image})) {
     EXPECT_NE(detection.class_name, "traffic light");
     if (detection.class_name != "car") continue;
     best = std::max(best, intersection_over_union(detection.box, {551, 184, 706, 325}));
@@ -155,7 +156,7 @@ TEST(NetworkDetector, a_wanted_class_that_the_network_does_not_know_is_named) {
   options.classes = (folder / "coco.names").string();
   options.wanted = {"car", "dragon"};
   try {
-    NetworkDetector detector(options);
+    static_cast<void>(make_network_detector(options));
     FAIL();
   } catch (const std::invalid_argument& error) {
     EXPECT_NE(std::string(error.what()).find("dragon"), std::string::npos);

@@ -6,7 +6,7 @@
 
 #include <set>
 
-#include "lidar_upsampling/objects/road_users.h"
+#include "road_user_clusters.h"
 #include "street_scan.h"
 
 namespace lidar_upsampling {
@@ -93,7 +93,7 @@ TEST_F(ObjectPoints, outside_the_box_come_in_with_the_cluster_if_wanted) {
   narrow.right -= 0.2 * narrow.width();
   ObjectPointOptions options;
   const auto whole = select(narrow, options);
-  options.whole_cluster = false;
+  options.min_share = 2;  // nothing is common enough
   const auto part = select(narrow, options);
   ASSERT_TRUE(whole);
   ASSERT_TRUE(part);
@@ -114,7 +114,7 @@ TEST_F(ObjectPoints, of_road_users_are_clusters_of_cars_and_not_of_walls) {
   set_up({{{12, 1, -1.6}, 4.2, 1.8, 1.4, 0.2},
           {{25, -3, -1.6}, 4.2, 1.8, 1.5, 0},
           {{25, 12, -1.8}, 40, 0.5, 3.5, 0}});
-  const auto found = road_user_clusters(street_.scan, segments_, {});
+  const auto found = testing::road_user_clusters(street_.scan, segments_);
   std::set<int> objects;
   for (const int cluster : found) {
     const auto& points = segments_.clusters[cluster];
@@ -142,9 +142,9 @@ TEST_F(ObjectPoints, a_car_that_one_ring_of_a_coarse_lidar_shows_low_is_a_candid
   coarse.scan.num_rings = 64;
   coarse.scan.num_columns = street_.scan.num_columns;
   SceneSegments segments = segment_scan(coarse.scan, {});
-  EXPECT_TRUE(road_user_clusters(coarse.scan, segments, {}).empty());
+  EXPECT_TRUE(testing::road_user_clusters(coarse.scan, segments).empty());
   segments.vertical_step_deg = 2;
-  EXPECT_EQ(road_user_clusters(coarse.scan, segments, {}).size(), 1U);
+  EXPECT_EQ(testing::road_user_clusters(coarse.scan, segments).size(), 1U);
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 
 #include "lidar_upsampling/objects/scene_segments.h"
 #include "lidar_upsampling/units.h"
+#include "road_user_clusters.h"
 #include "street_scan.h"
 
 namespace lidar_upsampling {
@@ -40,7 +41,7 @@ LidarScan depth_scan_of(const BoxObject& box) {
 }
 
 std::size_t num_found(const LidarScan& scan) {
-  return road_user_clusters(scan, segment_scan(scan), {}).size();
+  return testing::road_user_clusters(scan, segment_scan(scan)).size();
 }
 
 BoxObject box_at(double x, double y, double length) {

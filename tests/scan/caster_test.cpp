@@ -9,7 +9,7 @@
 #include <limits>
 #include <numeric>
 
-#include "lidar_upsampling/scan/taken.h"
+#include "lidar_upsampling/scan/compose.h"
 #include "spinning_scene.h"
 
 namespace lidar_upsampling {

@@ -28,12 +28,6 @@ struct SweepErrors {
   double standing = 0, moving = 0;  ///< m, mean of all virtual scans
 };
 
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 /// Distances of virtual points from where the truth takes them, each from its own instant on:
 /// of what stands the median (a parked car that is dragged along is another matter), of moving
 /// objects in view the mean.

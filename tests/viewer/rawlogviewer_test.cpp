@@ -114,10 +114,9 @@ TEST_F(RawLogViewer, a_scan_without_points_is_a_blank_view) {
   LidarScan nothing;
   nothing.label = "LIDAR_VIRTUAL";
   nothing.stamp = Stamp(mrpt::Clock::duration(132000000000000000LL));
-  for (const Carrier carrier : {Carrier::range_scan_3d, Carrier::point_cloud}) {
-    const std::string name = to_string(carrier);
+  for (const std::string name : {"3drangescan", "pointcloud"}) {
     RawlogWriter writer(folder_ / name + ".rawlog", false);
-    writer.write(*observation_from_scan(nothing, carrier));
+    writer.write(*observation_from_scan(nothing, carrier_from_string(name)));
     writer.commit();
     const Screen screen(folder_ / name, "RawLogViewer " + folder_ / name + ".rawlog");
     screen.act("row", "0");

@@ -151,12 +151,8 @@ TEST(DepthEdges, silhouettes_are_flagged_on_both_sides_and_surfaces_are_not) {
 TEST(DepthEdges, no_points_are_no_edges) { EXPECT_TRUE(mark_depth_edges({}).empty()); }
 
 TEST(Visibility, a_neighbourhood_of_no_size_is_refused) {
-  OcclusionOptions occlusion;
-  occlusion.neighbourhood.half_width_px = 0;
-  EXPECT_THROW((void)mark_occluded({}, occlusion), std::invalid_argument);
-  DepthEdgeOptions edges;
-  edges.margin_m = -1;
-  EXPECT_THROW((void)mark_depth_edges({}, edges), std::invalid_argument);
+  EXPECT_THROW((void)mark_occluded({}, {0, 7}), std::invalid_argument);
+  EXPECT_THROW((void)mark_depth_edges({}, {4, -1}), std::invalid_argument);
 }
 
 }  // namespace

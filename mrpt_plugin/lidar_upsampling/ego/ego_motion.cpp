@@ -4,20 +4,10 @@
 
 #include <array>
 #include <stdexcept>
-#include <utility>
 
 namespace lidar_upsampling {
 
 namespace {
-
-constexpr std::array<std::pair<EgoSource, const char*>, 6> kSourceNames{{
-    {EgoSource::automatic, "auto"},
-    {EgoSource::poses, "poses"},
-    {EgoSource::odometry, "odometry"},
-    {EgoSource::gnss, "gnss"},
-    {EgoSource::camera, "camera"},
-    {EgoSource::none, "none"},
-}};
 
 InterpolationLimits limits_of(const EgoMotionOptions& options) {
   if (options.max_interpolation_gap_s <= 0 || options.max_extrapolation_s < 0 ||
@@ -47,25 +37,10 @@ std::optional<EgoStep> step_on(const Trajectory& trajectory, Stamp from, Stamp t
 
 }  // namespace
 
-EgoSource ego_source_from_string(const std::string& name) {
-  std::string choices;
-  for (const auto& [source, known] : kSourceNames) {
-    if (name == known) {
-      return source;
-    }
-    choices += (choices.empty() ? "" : ", ") + std::string(known);
-  }
-  throw std::invalid_argument("ego-motion source '" + name + "' is unknown; choose one of " +
-                              choices);
-}
-
 const char* to_string(EgoSource source) {
-  for (const auto& [known, name] : kSourceNames) {
-    if (source == known) {
-      return name;
-    }
-  }
-  return "unknown";
+  constexpr std::array<const char*, 6> kNames{"auto", "poses",  "odometry",
+                                              "gnss", "camera", "none"};
+  return kNames.at(static_cast<std::size_t>(source));
 }
 
 EgoMotion::EgoMotion(const EgoMotionOptions& options)

@@ -16,9 +16,7 @@ namespace lidar_upsampling {
 /// log offers, else the camera; `none` holds the vehicle still.
 enum class EgoSource { automatic, poses, odometry, gnss, camera, none };
 
-/// "auto", "poses", "odometry", "gnss", "camera", "none". @throw std::invalid_argument with the
-/// choices.
-[[nodiscard]] EgoSource ego_source_from_string(const std::string& name);
+/// "auto", "poses", "odometry", "gnss", "camera", "none".
 [[nodiscard]] const char* to_string(EgoSource source);
 
 struct EgoMotionOptions {

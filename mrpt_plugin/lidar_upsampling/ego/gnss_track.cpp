@@ -71,12 +71,9 @@ double GnssTrack::half_window(Stamp center) const {
         (1 - share) * antenna_in_world_[i - 1] + share * antenna_in_world_[i + 1];
     residuals.push_back((antenna_in_world_[i] - middle).head<2>().norm());
   }
-  double sigma = 0.1;
-  if (!residuals.empty()) {
-    std::nth_element(residuals.begin(), residuals.begin() + residuals.size() / 2, residuals.end());
-    // Median of a Rayleigh variable; three fixes' noise goes into each residual.
-    sigma = residuals[residuals.size() / 2] / 1.1774 / std::sqrt(1.5);
-  }
+  // Median of a Rayleigh variable; three fixes' noise goes into each residual.
+  const double sigma =
+      residuals.empty() ? 0.1 : median(std::move(residuals)) / 1.1774 / std::sqrt(1.5);
   // Balances scatter against what a parabola cannot follow of a car's path.
   return std::clamp(2.5 * std::pow(sigma, 0.35), 0.4, 3.0);
 }

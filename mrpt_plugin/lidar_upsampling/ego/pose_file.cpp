@@ -10,6 +10,7 @@
 #include "lidar_upsampling/csv_table.h"
 #include "lidar_upsampling/se3.h"
 #include "lidar_upsampling/stamp_text.h"
+#include "lidar_upsampling/text.h"
 
 namespace lidar_upsampling {
 namespace {
@@ -41,16 +42,8 @@ std::vector<Line> read_lines(const std::string& path) {
 }
 
 double number_of(const std::string& word) {
-  std::size_t used = 0;
-  double value = NAN;
-  try {
-    value = std::stod(word, &used);
-  } catch (const std::exception&) {
-    used = 0;
-  }
-  if (used == 0 || used != word.size() || !std::isfinite(value))
-    throw std::invalid_argument("'" + word + "' is no number");
-  return value;
+  if (const auto number = number_in(word)) return *number;
+  throw std::invalid_argument("'" + word + "' is no number");
 }
 
 // With an exponent, as numpy writes it, too.

@@ -11,38 +11,31 @@ namespace lidar_upsampling {
 
 namespace {
 
-void check(const StaticPointQuery& query, const StaticPointOptions& options) {
+constexpr int kColumns = 24, kRows = 8, kPerCell = 3;  // of the grid on the picture
+constexpr double kObjectMargin_px = 8;                 // kept from points of object candidates
+constexpr double kMinTexture = 1e-4;                   // smaller eigenvalue
+
+void check(const StaticPointQuery& query) {
   const std::size_t size = query.points.size();
-  const auto fits = [size](const auto& flags) { return flags.empty() || flags.size() == size; };
-  if (!fits(query.is_unreliable) || !fits(query.is_candidate)) {
+  if (query.is_unreliable.size() != size || query.is_candidate.size() != size) {
     throw std::invalid_argument("choose_static_points: " + std::to_string(size) + " points but " +
                                 std::to_string(query.is_unreliable.size()) + " and " +
                                 std::to_string(query.is_candidate.size()) + " flags");
   }
-  if (options.columns < 1 || options.rows < 1 || options.per_cell < 1 ||
-      !(options.object_margin_px >= 1)) {
-    throw std::invalid_argument(
-        "choose_static_points: grid, points per cell and object margin must be 1 at least");
-  }
-  if (!query.texture.empty() &&
-      (query.texture.type() != CV_32FC1 || query.texture.size() != query.picture)) {
+  if (query.texture.type() != CV_32FC1 || query.texture.size() != query.picture) {
     throw std::invalid_argument("choose_static_points: texture must be CV_32FC1, as the picture");
   }
-}
-
-bool flagged(const std::vector<std::uint8_t>& flags, std::size_t i) {
-  return !flags.empty() && flags[i] != 0;
 }
 
 /// Where candidates are, in squares of the margin: a point is near one if its square or one around
 /// is taken.
 class CandidateMap {
  public:
-  CandidateMap(const StaticPointQuery& query, double margin) : margin_(margin) {
-    taken_ = cv::Mat1b::zeros(static_cast<int>(query.picture.height / margin) + 3,
-                              static_cast<int>(query.picture.width / margin) + 3);
+  explicit CandidateMap(const StaticPointQuery& query) {
+    taken_ = cv::Mat1b::zeros(static_cast<int>(query.picture.height / kObjectMargin_px) + 3,
+                              static_cast<int>(query.picture.width / kObjectMargin_px) + 3);
     for (std::size_t i = 0; i < query.points.size(); ++i) {
-      if (flagged(query.is_candidate, i)) {
+      if (query.is_candidate[i] != 0) {
         const cv::Point square = square_of(query.points[i]);
         taken_(cv::Rect(square.x - 1, square.y - 1, 3, 3)) = 1;
       }
@@ -54,13 +47,12 @@ class CandidateMap {
 
  private:
   [[nodiscard]] cv::Point square_of(const ProjectedPoint& point) const {
-    const auto square = [this](float x, int size) {
-      return std::clamp(static_cast<int>(x / margin_) + 1, 1, size - 2);
+    const auto square = [](float x, int size) {
+      return std::clamp(static_cast<int>(x / kObjectMargin_px) + 1, 1, size - 2);
     };
     return {square(point.u, taken_.cols), square(point.v, taken_.rows)};
   }
 
-  double margin_;
   cv::Mat1b taken_;
 };
 
@@ -76,25 +68,22 @@ double texture_at(const StaticPointQuery& query, const ProjectedPoint& point) {
 }
 
 /// The usable points of each cell, the best first.
-std::vector<std::vector<Scored>> sorted_cells(const StaticPointQuery& query,
-                                              const StaticPointOptions& options) {
-  const CandidateMap candidates(query, options.object_margin_px);
-  const double width = static_cast<double>(query.picture.width) / options.columns;
-  const double height = static_cast<double>(query.picture.height) / options.rows;
-  std::vector<std::vector<Scored>> cells(static_cast<std::size_t>(options.columns) * options.rows);
+std::vector<std::vector<Scored>> sorted_cells(const StaticPointQuery& query) {
+  const CandidateMap candidates(query);
+  const double width = static_cast<double>(query.picture.width) / kColumns;
+  const double height = static_cast<double>(query.picture.height) / kRows;
+  std::vector<std::vector<Scored>> cells(static_cast<std::size_t>(kColumns) * kRows);
   for (std::size_t i = 0; i < query.points.size(); ++i) {
     const ProjectedPoint& point = query.points[i];
     const int column = static_cast<int>(std::floor(point.u / width));
     const int row = static_cast<int>(std::floor(point.v / height));
-    if (flagged(query.is_unreliable, i) || column < 0 || column >= options.columns || row < 0 ||
-        row >= options.rows || candidates.near(point)) {
+    if (query.is_unreliable[i] != 0 || column < 0 || column >= kColumns || row < 0 ||
+        row >= kRows || candidates.near(point)) {
       continue;
     }
-    const double off_center =
-        std::hypot(point.u - (column + 0.5) * width, point.v - (row + 0.5) * height);
-    const double score = query.texture.empty() ? -off_center : texture_at(query, point);
-    if (query.texture.empty() || score >= options.min_texture) {
-      cells[static_cast<std::size_t>(row) * options.columns + column].push_back(
+    const double score = texture_at(query, point);
+    if (score >= kMinTexture) {
+      cells[static_cast<std::size_t>(row) * kColumns + column].push_back(
           {static_cast<int>(i), score});
     }
   }
@@ -106,8 +95,7 @@ std::vector<std::vector<Scored>> sorted_cells(const StaticPointQuery& query,
 }
 
 /// The best points of a cell that do not share their patch of the picture.
-std::vector<int> spread_out(const std::vector<Scored>& cell, const StaticPointQuery& query,
-                            int count) {
+std::vector<int> spread_out(const std::vector<Scored>& cell, const StaticPointQuery& query) {
   constexpr float kPatch = 10;
   std::vector<int> chosen;
   for (const Scored& candidate : cell) {
@@ -119,7 +107,7 @@ std::vector<int> spread_out(const std::vector<Scored>& cell, const StaticPointQu
     if (!crowded) {
       chosen.push_back(candidate.index);
     }
-    if (static_cast<int>(chosen.size()) == count) {
+    if (static_cast<int>(chosen.size()) == kPerCell) {
       break;
     }
   }
@@ -130,14 +118,14 @@ std::vector<int> spread_out(const std::vector<Scored>& cell, const StaticPointQu
 
 std::vector<int> choose_static_points(const StaticPointQuery& query,
                                       const StaticPointOptions& options) {
-  check(query, options);
+  check(query);
   std::vector<std::vector<int>> cells;
-  for (const auto& cell : sorted_cells(query, options)) {
-    cells.push_back(spread_out(cell, query, options.per_cell));
+  for (const auto& cell : sorted_cells(query)) {
+    cells.push_back(spread_out(cell, query));
   }
   // Round by round, so that the cap takes from the crowded cells first.
   std::vector<int> chosen;
-  for (int round = 0; round < options.per_cell; ++round) {
+  for (int round = 0; round < kPerCell; ++round) {
     for (const auto& cell : cells) {
       if (round < static_cast<int>(cell.size()) &&
           static_cast<int>(chosen.size()) < options.max_points) {

@@ -11,28 +11,22 @@
 namespace lidar_upsampling {
 
 struct StaticPointOptions {
-  int columns = 24;  ///< of the grid on the picture
-  int rows = 8;
-  int per_cell = 3;
   int max_points = 300;
-  double object_margin_px = 8;  ///< kept from points of object candidates
-  double min_texture = 1e-4;    ///< smaller eigenvalue, where a map of it is given
 };
 
-/// What is known of the points of a scan on a picture; the flags are in the order of `points`, or
-/// empty.
+/// What is known of the points of a scan on a picture; the flags are in the order of `points`.
 struct StaticPointQuery {
   const std::vector<ProjectedPoint>& points;
   const std::vector<std::uint8_t>& is_unreliable;  ///< occluded, or beside a depth edge
   const std::vector<std::uint8_t>& is_candidate;   ///< of an object that may move
   cv::Size picture;                                ///< pixels
-  cv::Mat texture;  ///< CV_32FC1, smaller eigenvalue of the structure tensor; may be empty
+  cv::Mat texture;  ///< CV_32FC1, smaller eigenvalue of the structure tensor
 };
 
 /// @brief Points to follow for the camera's ego-motion: spread over the picture by a grid, the best
-/// of each cell first (most texture, or nearest to the cell's centre), away from what may move.
+/// of each cell first (most texture), away from what may move.
 /// @return indices into `points`, at most `max_points`.
-/// @throw std::invalid_argument options, flags or texture of the wrong size.
+/// @throw std::invalid_argument flags or texture of the wrong size.
 [[nodiscard]] std::vector<int> choose_static_points(const StaticPointQuery& query,
                                                     const StaticPointOptions& options = {});
 

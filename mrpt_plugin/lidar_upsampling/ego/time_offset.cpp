@@ -55,12 +55,6 @@ std::vector<Beam> beams_of(const LidarScan& scan, const TimeOffsetOptions& optio
   return beams;
 }
 
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 double usual_gap(const std::vector<Beam>& beams) {
   std::vector<double> gaps;
   for (std::size_t i = 1; i < beams.size(); ++i)

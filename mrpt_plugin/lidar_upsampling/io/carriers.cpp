@@ -6,17 +6,15 @@
 #include <mrpt/system/datetime.h>
 #include <mrpt/version.h>
 
-#include <array>
 #include <filesystem>
 #include <stdexcept>
-#include <utility>
 
 #include "lidar_upsampling/io/depth_image.h"
 #include "lidar_upsampling/io/images.h"
-#include "lidar_upsampling/io/mrpt_errors.h"
 #include "lidar_upsampling/io/point_cloud.h"
 #include "lidar_upsampling/io/range_scan_3d.h"
 #include "lidar_upsampling/io/spinning_scans.h"
+#include "lidar_upsampling/text.h"
 
 namespace lidar_upsampling {
 namespace {
@@ -25,12 +23,6 @@ using mrpt::obs::CObservation3DRangeScan;
 using mrpt::obs::CObservationPointCloud;
 using mrpt::obs::CObservationRotatingScan;
 using mrpt::obs::CObservationVelodyneScan;
-
-constexpr std::array<std::pair<Carrier, const char*>, 4> kNames{
-    {{Carrier::automatic, "auto"},
-     {Carrier::range_scan_3d, "3drangescan"},
-     {Carrier::point_cloud, "pointcloud"},
-     {Carrier::same, "same"}}};
 
 // External files that the observation refers to.
 std::vector<std::string> external_files(const mrpt::obs::CObservation& observation) {
@@ -155,18 +147,12 @@ void check(const LidarScan& scan) {
 }  // namespace
 
 Carrier carrier_from_string(const std::string& name) {
-  for (const auto& [carrier, known] : kNames) {
-    if (name == known) return carrier;
-  }
+  if (name == "auto") return Carrier::automatic;
+  if (name == "3drangescan") return Carrier::range_scan_3d;
+  if (name == "pointcloud") return Carrier::point_cloud;
+  if (name == "same") return Carrier::same;
   throw std::invalid_argument("carrier = '" + name +
                               "' is unknown; choose auto, 3drangescan, pointcloud or same");
-}
-
-const char* to_string(Carrier carrier) {
-  for (const auto& [known, name] : kNames) {
-    if (carrier == known) return name;
-  }
-  return "?";
 }
 
 bool is_lidar_scan(const mrpt::obs::CObservation& observation) {

@@ -19,7 +19,6 @@ enum class Carrier { automatic, range_scan_3d, point_cloud, same };
 
 /// "auto", "3drangescan", "pointcloud", "same". @throw std::invalid_argument with the choices.
 [[nodiscard]] Carrier carrier_from_string(const std::string& name);
-[[nodiscard]] const char* to_string(Carrier carrier);
 
 /// Whether the observation can hold a 3D scan (CObservationPointCloud, 3DRangeScan, VelodyneScan,
 /// RotatingScan).

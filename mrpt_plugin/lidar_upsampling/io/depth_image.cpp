@@ -2,17 +2,165 @@
 // Copyright (c) 2026, the lidar_upsampling authors
 #include "lidar_upsampling/io/depth_image.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
+#include <cstdlib>
 #include <limits>
 #include <opencv2/core/mat.hpp>
 #include <stdexcept>
+#include <vector>
 
-#include "lidar_upsampling/io/depth_surface.h"
 #include "lidar_upsampling/io/images.h"
 #include "lidar_upsampling/vision/projection.h"
 
 namespace lidar_upsampling {
 namespace {
+
+/// What a camera in the place of the sensor sees of a scan.
+struct DepthSurface {
+  cv::Mat depth;      ///< CV_32F, metres along the optical axis; 0: nothing
+  cv::Mat intensity;  ///< CV_32F, [0, 1]; empty if the scan has none
+};
+
+constexpr float kSteepest = 8;        // depth per width of a surface: seen under 7 degrees
+constexpr float kNoise_m = 0.01F;     // in neighbours' depths
+constexpr float kLargestStretch = 4;  // pixels between what were neighbours
+constexpr double kMargin_px = -4;     // surfaces may reach into the picture from outside
+constexpr float kEdge = 1e-4F;        // neither gaps nor seams where triangles meet
+
+// One vertex per cell of the key scan's picture; depth 0 where there is none.
+struct Vertex {
+  float u = 0, v = 0, depth = 0, intensity = 0;
+  bool drawn = false;
+};
+
+// Twice the area of a triangle, with its sense of rotation.
+float turn(const Vertex& a, const Vertex& b, float u, float v) {
+  return (b.u - a.u) * (v - a.v) - (b.v - a.v) * (u - a.u);
+}
+
+class SurfacePainter {
+ public:
+  SurfacePainter(const CameraModel& model, bool with_intensity)
+      : step_(1 / static_cast<float>(std::min(model.fx, model.fy))) {
+    surface_.depth = cv::Mat::zeros(model.height, model.width, CV_32F);
+    if (with_intensity) surface_.intensity = cv::Mat::zeros(model.height, model.width, CV_32F);
+  }
+
+  // The two triangles of four neighbouring cells, along the diagonal that is no edge.
+  void paint(std::array<Vertex*, 4> corners) {  // clockwise
+    const std::size_t first = joined(*corners[0], *corners[2]) ? 0 : 1;
+    paint(*corners[first], *corners[first + 1], *corners[first + 2]);
+    paint(*corners[first], *corners[first + 2], *corners[(first + 3) % 4]);
+  }
+
+  // Single points, and in the cracks along depth edges the points beside them.
+  void paint_points(const std::vector<Vertex>& vertices) {
+    const cv::Mat covered = surface_.depth > 0;
+    for (const Vertex& point : vertices) {
+      const auto x = static_cast<int>(std::lround(point.u));
+      const auto y = static_cast<int>(std::lround(point.v));
+      if (point.depth == 0 || !contains(x, y)) continue;
+      if (!point.drawn || covered.at<std::uint8_t>(y, x) == 0) {
+        put(x, y, point.depth, point.intensity);
+      }
+    }
+  }
+
+  [[nodiscard]] DepthSurface surface() const { return surface_; }
+
+ private:
+  [[nodiscard]] bool contains(int x, int y) const {
+    return x >= 0 && y >= 0 && x < surface_.depth.cols && y < surface_.depth.rows;
+  }
+
+  [[nodiscard]] bool joined(const Vertex& a, const Vertex& b) const {
+    if (a.depth == 0 || b.depth == 0) return false;
+    const float nearest = std::min(a.depth, b.depth);
+    return std::abs(a.depth - b.depth) <= kSteepest * step_ * nearest + kNoise_m &&
+           std::abs(a.u - b.u) <= kLargestStretch && std::abs(a.v - b.v) <= kLargestStretch;
+  }
+
+  void paint(Vertex& a, Vertex& b, Vertex& c) {
+    if (!joined(a, b) || !joined(b, c) || !joined(c, a)) return;
+    a.drawn = b.drawn = c.drawn = true;
+    const float area = turn(a, b, c.u, c.v);
+    if (area == 0) return;
+    const auto [left, right] = std::minmax({a.u, b.u, c.u});
+    const auto [top, bottom] = std::minmax({a.v, b.v, c.v});
+    for (int y = static_cast<int>(std::ceil(top - kEdge)); y <= bottom + kEdge; ++y) {
+      for (int x = static_cast<int>(std::ceil(left - kEdge)); x <= right + kEdge; ++x) {
+        const auto u = static_cast<float>(x), v = static_cast<float>(y);
+        const float of_a = turn(b, c, u, v) / area, of_b = turn(c, a, u, v) / area;
+        const float of_c = 1 - of_a - of_b;
+        if (std::min({of_a, of_b, of_c}) < -kEdge) continue;
+        put(x, y, 1 / (of_a / a.depth + of_b / b.depth + of_c / c.depth),
+            of_a * a.intensity + of_b * b.intensity + of_c * c.intensity);
+      }
+    }
+  }
+
+  void put(int x, int y, float depth, float intensity) {
+    if (!contains(x, y)) return;
+    auto& nearest = surface_.depth.at<float>(y, x);
+    if (nearest != 0 && nearest <= depth) return;
+    nearest = depth;
+    if (!surface_.intensity.empty()) surface_.intensity.at<float>(y, x) = intensity;
+  }
+
+  DepthSurface surface_;
+  float step_;  // between neighbouring pixels' rays
+};
+
+std::vector<Vertex> vertices_of(const LidarScan& scan, const CameraModel& model) {
+  Pose T_camera_lidar = Pose::Identity();
+  T_camera_lidar.linear() << 0, -1, 0, 0, 0, -1, 1, 0, 0;
+  std::vector<Vertex> vertices(scan.size());
+  for (const ProjectedPoint& point : project_scan(model, T_camera_lidar, scan.points, kMargin_px)) {
+    const auto i = static_cast<std::size_t>(point.index);
+    vertices[i] = {point.u, point.v, point.depth, scan.intensity.empty() ? 0.F : scan.intensity[i],
+                   false};
+  }
+  return vertices;
+}
+
+// The vertices of a scan's picture, row by row from above; null where nothing was measured.
+std::vector<Vertex*> picture_of(const LidarScan& scan, std::vector<Vertex>& vertices) {
+  if (scan.ring.size() != scan.size() || scan.column.size() != scan.size()) return {};
+  std::vector<Vertex*> picture(static_cast<std::size_t>(scan.num_rings) *
+                               static_cast<std::size_t>(scan.num_columns));
+  for (std::size_t i = 0; i < scan.size(); ++i) {
+    if (scan.ring[i] >= scan.num_rings || scan.column[i] >= scan.num_columns) continue;
+    const auto row = static_cast<std::size_t>(scan.num_rings - 1 - scan.ring[i]);
+    picture[row * static_cast<std::size_t>(scan.num_columns) + scan.column[i]] = &vertices[i];
+  }
+  return picture;
+}
+
+/// Draws a scan whose rings and columns are the rows (from below) and columns of a picture:
+/// triangles between neighbours, depth exact at each pixel's centre (perspective interpolation),
+/// the nearest one in front. None lies across a depth edge. Points of no triangle, and those in a
+/// crack along a depth edge, are drawn as one pixel.
+/// @param model of a camera that looks along +X of the lidar frame, +Z up.
+DepthSurface draw_surface(const LidarScan& scan, const CameraModel& model) {
+  SurfacePainter painter(model, !scan.intensity.empty());
+  std::vector<Vertex> vertices = vertices_of(scan, model);
+  std::vector<Vertex*> picture = picture_of(scan, vertices);
+  Vertex nothing;
+  for (Vertex*& vertex : picture) {
+    if (vertex == nullptr) vertex = &nothing;
+  }
+  const auto columns = static_cast<std::size_t>(scan.num_columns);
+  for (std::size_t corner = 0; corner + columns + 1 < picture.size(); ++corner) {
+    if ((corner + 1) % columns == 0) continue;
+    painter.paint({picture[corner], picture[corner + 1], picture[corner + columns + 1],
+                   picture[corner + columns]});
+  }
+  painter.paint_points(vertices);
+  return painter.surface();
+}
 
 using mrpt::obs::CObservation3DRangeScan;
 

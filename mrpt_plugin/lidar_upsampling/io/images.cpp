@@ -8,12 +8,17 @@
 #include <opencv2/imgproc.hpp>
 #include <stdexcept>
 
-#include "lidar_upsampling/io/mrpt_errors.h"
+#include "lidar_upsampling/text.h"
 
 namespace lidar_upsampling {
 namespace {
 
 using mrpt::img::CImage;
+
+static_assert(static_cast<int>(DistortionModel::plumb_bob) ==
+                  static_cast<int>(mrpt::img::DistortionModel::plumb_bob) &&
+              static_cast<int>(DistortionModel::kannala_brandt) ==
+                  static_cast<int>(mrpt::img::DistortionModel::kannala_brandt));
 
 // Loads an externally stored picture, and unloads it however the scope is left.
 class LoadedImage {
@@ -75,16 +80,8 @@ CameraModel from_mrpt(const mrpt::img::TCamera& camera) {
   model.fy = camera.fy();
   model.cx = camera.cx();
   model.cy = camera.cy();
-  switch (camera.distortion) {
-    case mrpt::img::DistortionModel::plumb_bob:
-      model.distortion_model = DistortionModel::plumb_bob;
-      break;
-    case mrpt::img::DistortionModel::kannala_brandt:
-      model.distortion_model = DistortionModel::kannala_brandt;
-      break;
-    default:
-      return model;  // MRPT ignores the coefficients
-  }
+  if (camera.distortion == mrpt::img::DistortionModel::none) return model;  // so are coefficients
+  model.distortion_model = static_cast<DistortionModel>(camera.distortion);
   std::copy(camera.dist.begin(), camera.dist.end(), model.distortion.begin());
   return model;
 }
@@ -94,11 +91,7 @@ mrpt::img::TCamera to_mrpt(const CameraModel& model) {
   camera.ncols = static_cast<std::uint32_t>(model.width);
   camera.nrows = static_cast<std::uint32_t>(model.height);
   camera.setIntrinsicParamsFromValues(model.fx, model.fy, model.cx, model.cy);
-  camera.distortion = model.distortion_model == DistortionModel::plumb_bob
-                          ? mrpt::img::DistortionModel::plumb_bob
-                      : model.distortion_model == DistortionModel::kannala_brandt
-                          ? mrpt::img::DistortionModel::kannala_brandt
-                          : mrpt::img::DistortionModel::none;
+  camera.distortion = static_cast<mrpt::img::DistortionModel>(model.distortion_model);
   std::copy(model.distortion.begin(), model.distortion.end(), camera.dist.begin());
   return camera;
 }

@@ -10,6 +10,7 @@
 #include <mrpt/obs/CSensoryFrame.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdio>
 
 #include "lidar_upsampling/io/carriers.h"
@@ -58,9 +59,7 @@ double median_period(const std::vector<Stamp>& stamps) {
   for (std::size_t i = 1; i < stamps.size(); ++i) {
     periods.push_back(seconds_between(stamps[i - 1], stamps[i]));
   }
-  const auto middle = periods.begin() + static_cast<std::ptrdiff_t>(periods.size() / 2);
-  std::nth_element(periods.begin(), middle, periods.end());
-  return *middle;
+  return median(std::move(periods));
 }
 
 class Indexer {
@@ -104,21 +103,9 @@ class Indexer {
 }  // namespace
 
 const char* to_string(StreamKind kind) {
-  switch (kind) {
-    case StreamKind::lidar:
-      return "lidar";
-    case StreamKind::camera:
-      return "camera";
-    case StreamKind::pose:
-      return "pose";
-    case StreamKind::odometry:
-      return "odometry";
-    case StreamKind::gnss:
-      return "gnss";
-    case StreamKind::other:
-      break;
-  }
-  return "other";
+  constexpr std::array<const char*, 6> kNames{"lidar",    "camera", "pose",
+                                              "odometry", "gnss",   "other"};
+  return kNames.at(static_cast<std::size_t>(kind));
 }
 
 bool StreamInfo::calibrated() const { return camera && is_calibrated(camera->model); }

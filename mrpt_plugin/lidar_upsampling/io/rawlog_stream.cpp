@@ -14,7 +14,7 @@
 
 #include "lidar_upsampling/io/external_storage.h"
 #include "lidar_upsampling/io/gzip_file.h"
-#include "lidar_upsampling/io/mrpt_errors.h"
+#include "lidar_upsampling/text.h"
 
 namespace fs = std::filesystem;
 

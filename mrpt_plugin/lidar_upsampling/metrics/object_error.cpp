@@ -11,14 +11,10 @@
 
 namespace lidar_upsampling {
 
-double ground_speed(const ReferenceMotion& object, const Pose& T_lidar_t_lidar_k_ego, double dt) {
-  return velocity_error(object, T_lidar_t_lidar_k_ego, dt);
-}
-
-bool is_moving(const ReferenceMotion& object, const Pose& T_lidar_t_lidar_k_ego, double dt,
-               const MovingOptions& options) {
-  return ground_speed(object, T_lidar_t_lidar_k_ego, dt) > options.min_speed &&
-         position_error(object, T_lidar_t_lidar_k_ego) > options.min_sigmas * object.sigma_m;
+bool is_moving(const ReferenceMotion& object, const Pose& T_lidar_t_lidar_k_ego, double dt) {
+  constexpr double kMinSpeed_m_s = 0.5, kMinSigmas = 3;
+  return velocity_error(object, T_lidar_t_lidar_k_ego, dt) > kMinSpeed_m_s &&
+         position_error(object, T_lidar_t_lidar_k_ego) > kMinSigmas * object.sigma_m;
 }
 
 double position_error(const ReferenceMotion& object, const Pose& T_lidar_t_lidar_k) {
@@ -63,9 +59,7 @@ std::optional<Pose> recover_motion(const LidarScan& key, const LidarScan& virtua
   }
   // Fewer pairs say little about the object: the others went by occlusion or another carrier.
   if (pairs.size() >= 10 && 4 * pairs.size() >= object.size()) {
-    if (const auto fit = fit_rigid(pairs)) {
-      return fit->T_target_source;
-    }
+    if (const auto fit = fit_rigid(pairs)) return fit;
   }
   const ObjectRegistration found = register_object(points, surface, guesses);
   return found.status == RegistrationStatus::reliable ? std::make_optional(found.T_target_object)

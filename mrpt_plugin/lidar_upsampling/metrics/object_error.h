@@ -18,19 +18,10 @@ struct ReferenceMotion {
   double sigma_m = 0.02;                                 ///< of the centroid's position
 };
 
-struct MovingOptions {
-  double min_speed = 0.5;  ///< m/s over ground
-  double min_sigmas = 3;   ///< step over ground against its uncertainty
-};
-
-/// Speed over ground, m/s: the reference motion against the ego-motion.
-[[nodiscard]] double ground_speed(const ReferenceMotion& object, const Pose& T_lidar_t_lidar_k_ego,
-                                  double dt);
-
-/// Whether an object moves over ground by more than its uncertainty allows.
+/// Whether an object moves over ground: at 0.5 m/s at least, and by three times its uncertainty.
 /// @param dt seconds from the key scan to the reference, positive. @throw std::invalid_argument
 [[nodiscard]] bool is_moving(const ReferenceMotion& object, const Pose& T_lidar_t_lidar_k_ego,
-                             double dt, const MovingOptions& options = {});
+                             double dt);
 
 /// Metres between where the reference and an estimate put the object's centroid.
 [[nodiscard]] double position_error(const ReferenceMotion& object, const Pose& T_lidar_t_lidar_k);
@@ -45,7 +36,8 @@ struct MovingOptions {
 /// Radians about the lidar's +Z between the reference's and an estimate's rotation, in [0, pi].
 [[nodiscard]] double yaw_error(const ReferenceMotion& object, const Pose& T_lidar_t_lidar_k);
 
-/// @brief m/s between the centroid's true mean velocity and an estimate's.
+/// @brief m/s between the centroid's true mean velocity and an estimate's; of the ego-motion, the
+/// speed over ground.
 /// @param dt seconds from the key scan to the reference, positive. @throw std::invalid_argument
 [[nodiscard]] double velocity_error(const ReferenceMotion& object, const Pose& T_lidar_t_lidar_k,
                                     double dt);

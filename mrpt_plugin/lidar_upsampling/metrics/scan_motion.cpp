@@ -129,7 +129,7 @@ std::vector<int> match_in_order(const LidarScan& key, const LidarScan& virtual_s
   return matches;
 }
 
-std::optional<RigidFit> fit_rigid(const Pairs& pairs, double inlier_m) {
+std::optional<Pose> fit_rigid(const Pairs& pairs, double inlier_m) {
   if (pairs.size() < 3) {
     return std::nullopt;
   }
@@ -145,17 +145,7 @@ std::optional<RigidFit> fit_rigid(const Pairs& pairs, double inlier_m) {
       inliers = std::move(agreeing);
     }
   }
-  if (2 * inliers.size() <= pairs.size()) {
-    return std::nullopt;
-  }
-  RigidFit fit;
-  fit.T_target_source = best;
-  fit.inlier_share = static_cast<double>(inliers.size()) / static_cast<double>(pairs.size());
-  for (const auto& [source, target] : inliers) {
-    fit.rmse_m += (best * source - target).squaredNorm();
-  }
-  fit.rmse_m = std::sqrt(fit.rmse_m / static_cast<double>(inliers.size()));
-  return fit;
+  return 2 * inliers.size() > pairs.size() ? std::make_optional(best) : std::nullopt;
 }
 
 }  // namespace lidar_upsampling

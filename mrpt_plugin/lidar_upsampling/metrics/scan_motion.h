@@ -20,17 +20,11 @@ namespace lidar_upsampling {
 /// points in the key scan's order. Empty if the numbers differ or most points are others.
 [[nodiscard]] std::vector<int> match_in_order(const LidarScan& key, const LidarScan& virtual_scan);
 
-struct RigidFit {
-  Pose T_target_source = Pose::Identity();
-  double rmse_m = 0;  ///< of the inliers
-  double inlier_share = 0;
-};
-
 /// @brief The rigid motion that most pairs agree on: closed form (Umeyama), refitted on the pairs
 /// within `inlier_m`, from three-point starts (seeded) if the plain fit has no majority.
 /// @param pairs source and target point of each.
-/// @return none: fewer than 3 pairs, or no majority.
-[[nodiscard]] std::optional<RigidFit> fit_rigid(
+/// @return T_target_source; none: fewer than 3 pairs, or no majority.
+[[nodiscard]] std::optional<Pose> fit_rigid(
     const std::vector<std::pair<Eigen::Vector3d, Eigen::Vector3d>>& pairs, double inlier_m = 0.03);
 
 }  // namespace lidar_upsampling

@@ -44,11 +44,9 @@ AnchoredScan anchor_scan(const LidarScan& scan, const CameraModel& camera,
                          const Pose& T_camera_lidar_a) {
   AnchoredScan result;
   result.points = project_scan(camera, T_camera_lidar_a, scan.points);
-  OcclusionOptions occlusion;
-  DepthEdgeOptions edges;
-  result.sampling = occlusion.neighbourhood = edges.neighbourhood = sampling_of(scan, camera);
-  result.hidden = mark_occluded(result.points, occlusion);
-  result.on_edge = mark_depth_edges(result.points, edges);
+  result.sampling = sampling_of(scan, camera);
+  result.hidden = mark_occluded(result.points, result.sampling);
+  result.on_edge = mark_depth_edges(result.points, result.sampling);
   result.position.assign(scan.size(), -1);
   for (std::size_t i = 0; i < result.points.size(); ++i)
     result.position[result.points[i].index] = static_cast<int>(i);

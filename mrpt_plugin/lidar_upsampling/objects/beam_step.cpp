@@ -83,9 +83,7 @@ std::optional<double> estimate_horizontal_step_deg(const LidarScan& scan) {
     steps.push_back(std::abs(std::atan2(a.x() * b.y() - a.y() * b.x(), a.dot(b))) / kDegree);
   }
   if (steps.empty()) return std::nullopt;
-  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
-  std::nth_element(steps.begin(), middle, steps.end());
-  return *middle;
+  return median(std::move(steps));
 }
 
 }  // namespace lidar_upsampling

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the lidar_upsampling authors
-#include "lidar_upsampling/objects/csv_detector.h"
-
 #include <cmath>
 #include <fstream>
 #include <limits>
+#include <map>
 #include <stdexcept>
 
+#include "lidar_upsampling/objects/detector.h"
+#include "lidar_upsampling/stamp_text.h"
 #include "lidar_upsampling/text.h"
 
 namespace lidar_upsampling {
@@ -15,17 +16,8 @@ namespace {
 constexpr const char* kBlanks = " \t\r\"";
 
 double parse_number(const std::string& text, const char* column) {
-  std::size_t used = 0;
-  double value = NAN;
-  try {
-    value = std::stod(text, &used);
-  } catch (const std::exception&) {
-    used = 0;
-  }
-  if (used == 0 || used != text.size() || !std::isfinite(value)) {
-    throw std::invalid_argument(std::string(column) + " is '" + text + "', not a number");
-  }
-  return value;
+  if (const auto number = number_in(text)) return *number;
+  throw std::invalid_argument(std::string(column) + " is '" + text + "', not a number");
 }
 
 Detection parse_detection(const std::vector<std::string>& fields) {
@@ -47,58 +39,61 @@ Detection parse_detection(const std::vector<std::string>& fields) {
   return detection;
 }
 
+class CsvDetector : public Detector {
+ public:
+  explicit CsvDetector(const CsvDetectorOptions& options)
+      : tolerance_s_(1e-3 * options.stamp_tolerance_ms) {
+    std::ifstream file(options.path);
+    if (!file) {
+      throw std::runtime_error("cannot read the detections file '" + options.path +
+                               "' (detector.csv: does it exist?)");
+    }
+    int number = 0;
+    for (std::string line; std::getline(file, line);) {
+      ++number;
+      const std::vector<std::string> fields = comma_separated(line, kBlanks);
+      const bool blank = trimmed(line, kBlanks).empty() || fields[0].rfind('#', 0) == 0;
+      const bool header = number == 1 && fields.size() > 1 && fields[1] == "stamp";
+      if (blank || header) continue;
+      try {
+        if (fields.size() < 8 || fields.size() > 9) {
+          throw std::invalid_argument(std::to_string(fields.size()) + " columns");
+        }
+        boxes_[fields[0]][parse_stamp(fields[1])].push_back(parse_detection(fields));
+      } catch (const std::invalid_argument& error) {
+        throw std::runtime_error(
+            options.path + ", line " + std::to_string(number) + ": " + error.what() +
+            "; expected label,stamp,class,score,left,top,right,bottom[,track]");
+      }
+    }
+    if (file.bad()) throw std::runtime_error("reading '" + options.path + "' failed");
+  }
+
+  std::vector<Detection> detect(const DetectorInput& input) override {
+    const auto found = boxes_.find(input.image.camera.label);
+    if (found == boxes_.end()) return {};
+    const auto& by_stamp = found->second;
+    const Stamp stamp = input.image.stamp;
+    auto nearest = by_stamp.lower_bound(stamp);
+    if (nearest != by_stamp.begin()) {
+      const auto before = std::prev(nearest);
+      if (nearest == by_stamp.end() || stamp - before->first <= nearest->first - stamp) {
+        nearest = before;
+      }
+    }
+    if (std::abs(seconds_between(stamp, nearest->first)) > tolerance_s_) return {};
+    return nearest->second;
+  }
+
+ private:
+  double tolerance_s_;
+  std::map<std::string, std::map<Stamp, std::vector<Detection>>> boxes_;  // by label
+};
+
 }  // namespace
 
-CsvDetector::CsvDetector(const CsvDetectorOptions& options)
-    : tolerance_s_(1e-3 * options.stamp_tolerance_ms) {
-  std::ifstream file(options.path);
-  if (!file) {
-    throw std::runtime_error("cannot read the detections file '" + options.path +
-                             "' (detector.csv: does it exist?)");
-  }
-  load(file, options.path);
-}
-
-CsvDetector::CsvDetector(std::istream& rows, const std::string& name, double stamp_tolerance_ms)
-    : tolerance_s_(1e-3 * stamp_tolerance_ms) {
-  load(rows, name);
-}
-
-void CsvDetector::load(std::istream& rows, const std::string& name) {
-  int number = 0;
-  for (std::string line; std::getline(rows, line);) {
-    ++number;
-    const std::vector<std::string> fields = comma_separated(line, kBlanks);
-    const bool blank = trimmed(line, kBlanks).empty() || fields[0].rfind('#', 0) == 0;
-    const bool header = number == 1 && fields.size() > 1 && fields[1] == "stamp";
-    if (blank || header) continue;
-    try {
-      if (fields.size() < 8 || fields.size() > 9) {
-        throw std::invalid_argument(std::to_string(fields.size()) + " columns");
-      }
-      boxes_[fields[0]][parse_stamp(fields[1])].push_back(parse_detection(fields));
-    } catch (const std::invalid_argument& error) {
-      throw std::runtime_error(name + ", line " + std::to_string(number) + ": " + error.what() +
-                               "; expected label,stamp,class,score,left,top,right,bottom[,track]");
-    }
-  }
-  if (rows.bad()) throw std::runtime_error("reading '" + name + "' failed");
-}
-
-std::vector<Detection> CsvDetector::detect(const DetectorInput& input) {
-  const auto found = boxes_.find(input.image.camera.label);
-  if (found == boxes_.end()) return {};
-  const auto& by_stamp = found->second;
-  const Stamp stamp = input.image.stamp;
-  auto nearest = by_stamp.lower_bound(stamp);
-  if (nearest != by_stamp.begin()) {
-    const auto before = std::prev(nearest);
-    if (nearest == by_stamp.end() || stamp - before->first <= nearest->first - stamp) {
-      nearest = before;
-    }
-  }
-  if (std::abs(seconds_between(stamp, nearest->first)) > tolerance_s_) return {};
-  return nearest->second;
+std::unique_ptr<Detector> make_csv_detector(const CsvDetectorOptions& options) {
+  return std::make_unique<CsvDetector>(options);
 }
 
 }  // namespace lidar_upsampling

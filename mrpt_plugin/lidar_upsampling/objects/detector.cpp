@@ -4,9 +4,6 @@
 
 #include <stdexcept>
 
-#include "lidar_upsampling/objects/csv_detector.h"
-#include "lidar_upsampling/objects/network_detector.h"
-
 namespace lidar_upsampling {
 
 std::unique_ptr<Detector> make_detector(const DetectorOptions& options) {
@@ -14,9 +11,9 @@ std::unique_ptr<Detector> make_detector(const DetectorOptions& options) {
     case DetectorOptions::Type::clusters:
       return nullptr;
     case DetectorOptions::Type::network:
-      return std::make_unique<NetworkDetector>(options.network);
+      return make_network_detector(options.network);
     case DetectorOptions::Type::csv:
-      return std::make_unique<CsvDetector>(options.csv);
+      return make_csv_detector(options.csv);
   }
   throw std::invalid_argument("make_detector: unknown detector type");
 }

@@ -70,4 +70,17 @@ struct DetectorOptions {
 /// @throw std::runtime_error, std::invalid_argument a missing or unreadable file, a bad setting.
 [[nodiscard]] std::unique_ptr<Detector> make_detector(const DetectorOptions& options);
 
+/// @brief Boxes from a file: `label,stamp,class,score,left,top,right,bottom[,track]`, any order of
+/// rows, an optional header; `label` is the image's sensor label. Given out are those at the stamp
+/// nearest to the image's own, none outside the tolerance.
+/// @throw std::runtime_error no such file, or a bad row, with its line number.
+[[nodiscard]] std::unique_ptr<Detector> make_csv_detector(const CsvDetectorOptions& options);
+
+/// @brief Boxes of the wanted classes by a network through cv::dnn, on the processor. Loads the
+/// model and runs it once, so that a wrong file or setting shows at start.
+/// @throw std::runtime_error a missing or unreadable file, an output of no known layout.
+/// @throw std::invalid_argument a setting out of range, a wanted class the network does not know.
+[[nodiscard]] std::unique_ptr<Detector> make_network_detector(
+    const NetworkDetectorOptions& options);
+
 }  // namespace lidar_upsampling

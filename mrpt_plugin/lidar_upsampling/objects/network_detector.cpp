@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the lidar_upsampling authors
-#include "lidar_upsampling/objects/network_detector.h"
-
 #include <algorithm>
 #include <fstream>
+#include <opencv2/dnn.hpp>
 #include <opencv2/imgproc.hpp>
 #include <stdexcept>
+
+#include "lidar_upsampling/objects/detector.h"
+#include "lidar_upsampling/objects/network_output.h"
 
 namespace lidar_upsampling {
 namespace {
@@ -102,7 +104,23 @@ void check(const NetworkDetectorOptions& options) {
   }
 }
 
-}  // namespace
+class NetworkDetector : public Detector {
+ public:
+  explicit NetworkDetector(const NetworkDetectorOptions& options);
+  std::vector<Detection> detect(const DetectorInput& input) override;
+
+ private:
+  [[nodiscard]] std::vector<cv::Mat> run(const cv::Mat& picture);
+  [[nodiscard]] cv::Size fitted_size(cv::Size picture) const;
+
+  NetworkDetectorOptions options_;
+  std::vector<std::string> class_names_;
+  std::vector<bool> wanted_;  ///< per class
+  cv::dnn::Net net_;
+  std::vector<std::string> output_names_;
+  cv::Size input_size_;
+  NetworkLayout layout_ = NetworkLayout::region;
+};
 
 NetworkDetector::NetworkDetector(const NetworkDetectorOptions& options) : options_(options) {
   check(options);
@@ -188,6 +206,12 @@ std::vector<Detection> NetworkDetector::detect(const DetectorInput& input) {
     detections.push_back({boxes[i].box, class_names_[boxes[i].class_id], boxes[i].score, -1, {}});
   }
   return detections;
+}
+
+}  // namespace
+
+std::unique_ptr<Detector> make_network_detector(const NetworkDetectorOptions& options) {
+  return std::make_unique<NetworkDetector>(options);
 }
 
 }  // namespace lidar_upsampling

@@ -133,10 +133,8 @@ std::optional<std::vector<int>> select_object_points(const LidarScan& scan,
       candidates.begin(), candidates.end(), [&](const Candidate& a, const Candidate& b) {
         return rate(a, box, most_area, nearest) < rate(b, box, most_area, nearest);
       });
-  if (options.whole_cluster) {
-    if (const auto* whole = whole_cluster_of(*best, segments, options.min_share)) return *whole;
-  }
-  return best->points;
+  const auto* whole = whole_cluster_of(*best, segments, options.min_share);
+  return whole != nullptr ? *whole : best->points;
 }
 
 }  // namespace lidar_upsampling

@@ -13,10 +13,10 @@ namespace lidar_upsampling {
 struct ObjectPointOptions {
   ClusterOptions clusters;  ///< the angle between rings is taken from the segments
   int min_points = 8;
-  double box_margin = 0.05;   ///< of the box's size, on each side, by which a box may be too small
-  double min_overlap = 0.1;   ///< IoU of the box with the cluster's own
-  bool whole_cluster = true;  ///< the scene's cluster instead, with its points outside the box...
-  double min_share = 0.6;     ///< ...if so much of either is common to both
+  double box_margin = 0.05;  ///< of the box's size, on each side, by which a box may be too small
+  double min_overlap = 0.1;  ///< IoU of the box with the cluster's own
+  double min_share = 0.6;  ///< the scene's cluster is taken, with its points outside the box, if so
+                           ///< much of either is common to both
 };
 
 /// @brief The points of the object in a 2D box (paper, section "Defining Object Points"): ground

@@ -12,14 +12,14 @@ namespace lidar_upsampling {
                                                          const SceneSegments& segments,
                                                          const ClusterDetectorOptions& options);
 
-/// @brief The clusters of a scan that may be road users, by their size and where they stand; seen
-/// by a camera or not.
-/// @return positions in `segments.clusters`.
-[[nodiscard]] std::vector<int> road_user_clusters(const LidarScan& scan,
-                                                  const SceneSegments& segments,
-                                                  const ClusterDetectorOptions& options);
-
 /// "car", "truck" or "person" by size, "object" where that says nothing.
 [[nodiscard]] const char* class_by_size(const ClusterExtent& extent);
+
+/// @brief Whether something nearer hides what lies between a cluster's lowest points and the ground
+/// under it, as a car does before a van: then the cluster may well stand on the ground, while a
+/// sign or a branch, under which the beams reach what is farther off, does not.
+/// @param cluster indices into the scan, not empty.
+[[nodiscard]] bool foot_is_hidden(const LidarScan& scan, const Ground& ground,
+                                  const std::vector<int>& cluster);
 
 }  // namespace lidar_upsampling

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <limits>
-
 #include <vector>
 
 #include "lidar_upsampling/registration/object_registration.h"
@@ -52,5 +51,19 @@ struct Sampling {
 
 /// @brief The share of the visible points that are covered; 0 where too few are visible.
 [[nodiscard]] double overlap_of(const ObjectFit& fit, const Pose& T_target_object);
+
+/// Where an object comes to lie on a target.
+struct Fitted {
+  Pose T = Pose::Identity();  ///< T_target_object
+  double score = kScoreCut;
+  double rank = kScoreCut;  ///< the score, with what an unexpected place adds
+};
+
+/// @brief ICP from one guess: point to plane with a little point to point, Geman-McClure weights
+/// whose scale shrinks to the options', softly level with the ego-motion.
+/// @param stop a step this short ends the search, m and rad.
+[[nodiscard]] Fitted converge(const ObjectFit& problem, const Pose& guess, double stop = 2e-4);
+
+[[nodiscard]] Pose shifted_by(const Pose& T, double x, double y);
 
 }  // namespace lidar_upsampling

@@ -56,8 +56,7 @@ struct ObjectRegistration {
   RegistrationStatus status = RegistrationStatus::too_few_points;
   Pose T_target_object = Pose::Identity();
   double overlap = 0;     ///< share of the object's points that are covered
-  double score_m = 0;     ///< root mean squared distance to the nearest target point, cut at 0.5 m
-  double residual_m = 0;  ///< the same distance across the surface where the target's is known
+  double residual_m = 0;  ///< root mean squared distance to the target across its surface
   double spread_m = 0;    ///< how far the centroid goes astray from shifted starts that fit as well
   Eigen::Matrix2d slack =
       Eigen::Matrix2d::Zero();  ///< m^2, level covariance told by these starts:

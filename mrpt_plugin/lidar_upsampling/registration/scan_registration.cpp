@@ -128,7 +128,6 @@ std::optional<Registration> iterate(const std::vector<Eigen::Vector3f>& source,
   NormalEquations sum;
   double scale = 5 * options.kernel_m;
   for (int i = 0; i < options.max_iterations; ++i) {
-    result.num_iterations = i + 1;
     match_all(source, target, result.T_target_source, options.max_correspondence_m, matches);
     sum = accumulate(matches, scale, 3 * options.kernel_m);
     if (sum.num_matches < kMinCorrespondences) {

@@ -27,7 +27,6 @@ struct Registration {
   double inlier_share = 0;                 ///< of the source points that found a plane
   double rmse_m = 0;                       ///< point to plane, of the inliers
   Matrix6d covariance = Matrix6d::Zero();  ///< of a Twist applied on the left, in the target frame
-  int num_iterations = 0;
 };
 
 /// @brief Point-to-plane ICP with a robust kernel that narrows: what moves on its own is left out.

@@ -17,12 +17,6 @@ namespace {
 constexpr std::size_t kMaxRings = 256;  // more are the rows of a depth picture
 constexpr std::size_t kEnough = 300;    // of a ring's points, to tell what is the same for all
 
-float median(std::vector<float> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 // One ring's points and what they say about its laser.
 struct Ring {
   std::vector<int> points;

@@ -2,7 +2,6 @@
 // Copyright (c) 2026, the lidar_upsampling authors
 #include "lidar_upsampling/scan/compose.h"
 
-#include "lidar_upsampling/scan/taken.h"
 #include "lidar_upsampling/vision/projection.h"
 
 namespace lidar_upsampling {

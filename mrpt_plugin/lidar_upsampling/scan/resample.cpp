@@ -13,8 +13,8 @@
 
 #include "lidar_upsampling/scan/beams.h"
 #include "lidar_upsampling/scan/caster.h"
+#include "lidar_upsampling/scan/compose.h"
 #include "lidar_upsampling/scan/patch_index.h"
-#include "lidar_upsampling/scan/taken.h"
 
 namespace lidar_upsampling {
 

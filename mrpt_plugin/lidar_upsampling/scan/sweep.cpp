@@ -75,10 +75,6 @@ void deskew(LidarScan& scan, const std::vector<float>& times, const LidarPath& p
   scan.time_s = times;
 }
 
-void deskew(LidarScan& scan, const std::vector<float>& times, const Twist& lidar_rate) {
-  deskew(scan, times, [&](double time) { return exp_se3(Twist(-time * lidar_rate)); });
-}
-
 double mean_time(const std::vector<float>& times, const std::vector<int>& points) {
   if (times.empty() || points.empty()) return 0;
   double sum = 0;

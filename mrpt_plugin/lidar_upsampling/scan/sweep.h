@@ -46,9 +46,6 @@ using LidarPath = std::function<Pose(double)>;
 /// wrong length.
 void deskew(LidarScan& scan, const std::vector<float>& times, const LidarPath& path);
 
-/// @param lidar_rate log of T_lidar_t_lidar_k per second, constant during the scan.
-void deskew(LidarScan& scan, const std::vector<float>& times, const Twist& lidar_rate);
-
 /// Mean of the chosen points' times; 0 without times or points.
 [[nodiscard]] double mean_time(const std::vector<float>& times, const std::vector<int>& points);
 

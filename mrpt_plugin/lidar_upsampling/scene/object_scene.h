@@ -8,9 +8,27 @@
 #include <string>
 #include <vector>
 
-#include "lidar_upsampling/scene/object_boxes.h"
+#include "lidar_upsampling/types.h"
 
 namespace lidar_upsampling {
+
+/// A tracked object as it is shown: the upright box around its points.
+struct ObjectBox {
+  int track_id = -1;
+  std::string class_name;
+  bool moving = false;
+  Pose T_lidar_box = Pose::Identity();                 ///< centre, +X along `size.x()`
+  Eigen::Vector3d size = Eigen::Vector3d::Zero();      ///< m
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  ///< lidar frame, over ground, m/s
+};
+
+/// @brief The boxes of a virtual scan's objects at the image's instant: along the velocity of what
+/// moves, else along its longer side. Objects without points left in the scan have none.
+[[nodiscard]] std::vector<ObjectBox> object_boxes(const VirtualScan& scan);
+
+/// Whether a point lies in the box or at most `margin` (m) outside.
+[[nodiscard]] bool contains(const ObjectBox& box, const Eigen::Vector3d& point_lidar,
+                            double margin = 0.05);
 
 /// @brief Draws objects as wireframe boxes with class, track and speed; what moves has its track's
 /// colour and an arrow as long as its way in half a second.

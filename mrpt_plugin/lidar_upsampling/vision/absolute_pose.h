@@ -42,7 +42,6 @@ struct AbsolutePose {
   /// vector (rad) and a translation (m) of the camera frame.
   Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Identity();
   bool converged = false;
-  int ransac_iterations = 0;
 };
 
 /// @throw std::invalid_argument

@@ -137,11 +137,10 @@ class InverseDepthPlane {
 }  // namespace
 
 std::vector<std::uint8_t> mark_occluded(const std::vector<ProjectedPoint>& points,
-                                        const OcclusionOptions& options) {
-  check_positive("margin_m", options.margin_m);
-  const PixelGrid grid(points, options.neighbourhood);
-  const auto margin = static_cast<float>(options.margin_m);
-  const auto factor = static_cast<float>(1 - options.relative_margin);
+                                        const Neighbourhood& neighbourhood) {
+  const PixelGrid grid(points, neighbourhood);
+  // What is nearer by this much, plus this part of the depth, may hide a point.
+  constexpr auto margin = static_cast<float>(0.3), factor = static_cast<float>(1 - 0.03);
   return mark(points, [&](const ProjectedPoint& point) {
     unsigned nearer_in_octant = 0;
     const float limit = point.depth * factor - margin;
@@ -153,12 +152,12 @@ std::vector<std::uint8_t> mark_occluded(const std::vector<ProjectedPoint>& point
 }
 
 std::vector<std::uint8_t> mark_depth_edges(const std::vector<ProjectedPoint>& points,
-                                           const DepthEdgeOptions& options) {
-  check_positive("margin_m", options.margin_m);
-  const PixelGrid grid(points, options.neighbourhood);
+                                           const Neighbourhood& neighbourhood) {
+  const PixelGrid grid(points, neighbourhood);
   return mark(points, [&](const ProjectedPoint& point) {
     const float depth = point.depth;
-    const float limit = static_cast<float>(options.margin_m + options.relative_margin * depth);
+    // What deviates from the local plane by more is an edge.
+    const float limit = static_cast<float>(0.15 + 0.01 * depth);
     float nearest = depth;
     float farthest = depth;
     InverseDepthPlane sums;

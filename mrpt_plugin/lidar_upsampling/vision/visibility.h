@@ -17,32 +17,20 @@ struct Neighbourhood {
   double half_height_px = 7;
 };
 
-struct OcclusionOptions {
-  Neighbourhood neighbourhood;
-  double margin_m = 0.3;          ///< a point this much nearer, plus
-  double relative_margin = 0.03;  ///< this part of the depth, may hide another
-};
-
-struct DepthEdgeOptions {
-  Neighbourhood neighbourhood;
-  double margin_m = 0.15;  ///< deviation from the local plane that makes an edge, plus
-  double relative_margin = 0.01;
-};
-
 /// @brief Points that the camera does not see though the LiDAR does, as it looks from elsewhere:
 /// those with clearly nearer neighbours on opposite sides. One side alone is no evidence: a ground
 /// seen at a grazing angle has nearer neighbours below, too.
 /// @return 1 for each hidden point, in the order of `points`.
-/// @throw std::invalid_argument a neighbourhood or margin that is not positive.
+/// @throw std::invalid_argument a neighbourhood that is not positive.
 [[nodiscard]] std::vector<std::uint8_t> mark_occluded(const std::vector<ProjectedPoint>& points,
-                                                      const OcclusionOptions& options = {});
+                                                      const Neighbourhood& neighbourhood = {});
 
 /// @brief Points beside a depth jump, on either side of it: where a neighbourhood deviates from its
 /// least-squares plane (inverse depth is affine on the picture of a plane). A picture patch there
 /// shows two things that move apart.
 /// @return 1 for each such point, in the order of `points`.
-/// @throw std::invalid_argument a neighbourhood or margin that is not positive.
+/// @throw std::invalid_argument a neighbourhood that is not positive.
 [[nodiscard]] std::vector<std::uint8_t> mark_depth_edges(const std::vector<ProjectedPoint>& points,
-                                                         const DepthEdgeOptions& options = {});
+                                                         const Neighbourhood& neighbourhood = {});
 
 }  // namespace lidar_upsampling
