@@ -30,13 +30,13 @@ Matrix6d picture_error(const MotionQuestion& question, const ImageFactor& image,
   constexpr double kPatch_px = 5;  // a single point is as wide as its patch
   const double range = question.centroid.norm(), m_per_px = range / question.focal_px;
   const Eigen::Vector3d ahead = question.centroid / range;
+  const auto count = static_cast<double>(image.observations.size());
   Eigen::Vector3d middle = Eigen::Vector3d::Zero();
   for (const Observation& seen : image.observations) middle += seen.point_in_source;
-  middle /= std::max<double>(1., static_cast<double>(image.observations.size()));
+  middle /= count;
   double sq_width = std::pow(kPatch_px * m_per_px, 2);
   for (const Observation& seen : image.observations)
-    sq_width += ahead.cross(seen.point_in_source - middle).squaredNorm() /
-                static_cast<double>(image.observations.size());
+    sq_width += ahead.cross(seen.point_in_source - middle).squaredNorm() / count;
   const double sq_shift = std::pow(options.common_error_px * m_per_px, 2);
   const double sq_share = sq_shift / sq_width;  // of its size
   Matrix6d error = Matrix6d::Zero();
@@ -107,8 +107,10 @@ std::vector<Way> ways_of(const ObjectTrack& track, const MotionQuestion& questio
   if (track.ahead)
     return {way(1, at_instant(track.state), track.expected_at(question.instant, options.noise))};
   std::vector<Way> ways;
-  for (const Course& course : courses_before_images(track, options))
-    ways.push_back(way(course.probability, at_instant(course.from), at_instant(course.from)));
+  for (const Course& course : courses_before_images(track, options)) {
+    const TrackState now = at_instant(course.from);
+    ways.push_back(way(course.probability, now, now));
+  }
   return ways;
 }
 
@@ -236,8 +238,10 @@ MotionAnswer estimate_motion(const ObjectTrack& track, const ImageFactor& image,
   constexpr double kLeastTurn = 2e-4;  // rad: a hundredth of a degree, so that it can be inverted
   MotionExpected parked{Twist::Zero(), ego_error(question)};
   parked.covariance.diagonal().array() += kLeastTurn * kLeastTurn;
-  const Matrix6d of_picture = picture_error(question, image, options);
-  if (!image.observations.empty()) parked.covariance += of_picture;
+  const bool is_shown = !image.observations.empty();
+  const Matrix6d of_picture =
+      is_shown ? picture_error(question, image, options) : Matrix6d(Matrix6d::Zero());
+  parked.covariance += of_picture;
   const std::vector<Way> ways = ways_of(track, question, parked.covariance, options);
   MotionAnswer answer;
   answer.log_odds = track.expected_log_odds();
@@ -245,9 +249,8 @@ MotionAnswer estimate_motion(const ObjectTrack& track, const ImageFactor& image,
   answer.moving.mean = ways.front().expected.mean;
   answer.moving.covariance = ways.front().expected.covariance;
   answer.parked.covariance = parked.covariance;
-  const auto heard = image.observations.empty()
-                         ? std::nullopt
-                         : hear(track.stamp, image, question, ways, parked, starts, options);
+  const auto heard =
+      is_shown ? hear(track.stamp, image, question, ways, parked, starts, options) : std::nullopt;
   if (heard) learn(*heard, ways, parked, of_picture, question, options, answer);
   answer.moves = options.static_test ? answer.log_odds > std::log(options.loss_ratio)
                                      : answer.is_seen || answer.log_odds > 0;

@@ -192,10 +192,6 @@ bool judge_step(const ObjectTrack& track, const PlanarStep& step, const TrackOpt
 
 }  // namespace
 
-double log_mean(double a, double b) {
-  return std::max(a, b) + std::log(0.5 * (1 + std::exp(-std::abs(a - b))));
-}
-
 double prior_log_odds(const TrackOptions& options) {
   return std::log(options.moving_prior / (1 - options.moving_prior));
 }

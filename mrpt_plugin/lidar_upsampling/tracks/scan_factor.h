@@ -19,9 +19,6 @@ struct ScanLesson {
 [[nodiscard]] ScanLesson learn_from_scans(const ObjectTrack& track, const ScanObject& object,
                                           const TrackedScan& scan, const TrackOptions& options);
 
-/// The logarithm of the mean of two likelihoods, from their logarithms.
-[[nodiscard]] double log_mean(double a, double b);
-
 [[nodiscard]] double prior_log_odds(const TrackOptions& options);
 
 /// Of moving, `dt` seconds after or before the instant they were known for.
