@@ -238,13 +238,11 @@ void visit_tracks(Config& c, SettingVisitor& v) {
   v.number("aside_speed_sigma_m_s", t.noise.aside_speed_sigma, kPositive,
            "across our own heading, of one that goes our road, as half of them do");
   v.number("unknown_yaw_rate_sigma_rad_s", t.noise.unknown_yaw_rate_sigma, kPositive, "likewise");
-  v.number("acceleration_m2_s3", t.noise.acceleration, kPositive,
-           "white noise by which velocities change: variance per second");
-  v.number("manoeuvre_m2_s3", t.noise.manoeuvre, kPositive,
-           "likewise, while one brakes, pulls away, or swerves");
-  v.number("yaw_acceleration_rad2_s3", t.noise.yaw_acceleration, kPositive, "likewise");
-  v.number("manoeuvre_change", t.manoeuvre_change, kProbability,
-           "probability, from sight to sight, that a manoeuvre begins or ends");
+  v.number("acceleration_sigma_m_s2", t.noise.acceleration_sigma, kPositive,
+           "per axis, by which velocities change");
+  v.number("acceleration_time_s", t.noise.acceleration_time, kPositive, "that it lasts");
+  v.number("yaw_acceleration_rad2_s3", t.noise.yaw_acceleration, kPositive,
+           "white noise by which yaw rates change");
   v.number("birth_density_per_m2", t.birth_density, kPositive, "new objects from scan to scan");
   v.number("extent_error", t.extent_error, kPositive,
            "share of its length by which what is seen of an object shifts");
@@ -259,9 +257,6 @@ void visit_tracks(Config& c, SettingVisitor& v) {
            "of Student's t: the fewer, the more points go astray");
   v.number("points_per_observation", t.points.points_per_observation, {1, 1000},
            "neighbouring points err alike: so many count as one");
-  v.integer("min_inliers", t.min_inliers, {1, 1e6},
-            "followed points that agree; with fewer the picture is not heard");
-  v.number("min_agreement", t.min_agreement, kShare, "share of those found, likewise");
   v.number("height_sigma_m", t.height_sigma_m, kPositive, "vehicles stay on the ground");
   v.number("tilt_sigma_deg", t.tilt_sigma_deg, kPositive, "vehicles stay level");
   v.number("height_rate_sigma_m_s", t.height_rate_sigma, kPositive, "added per second");

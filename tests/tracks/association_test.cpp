@@ -112,7 +112,8 @@ TEST(Association, goes_on_as_scans_have_shown_where_pictures_told_another_way) {
   track.latest.stamp = shifted(track.stamp, 0.05);
   track.latest.mean.head<3>() << 0, 1, 0;  // to the side, and surely so
   track.latest.mean.segment<2>(3) << 0, 20;
-  track.latest.covariance = 1e-4 * Matrix6d::Identity();
+  track.latest.covariance.setIdentity();
+  track.latest.covariance *= 1e-4;
   const auto after = street.show(0.5, {car_at(25, 5)});
   EXPECT_EQ(street.id(after[0]), id);
   EXPECT_GT(street.track(after[0]).log_odds, 0);

@@ -26,8 +26,8 @@ std::vector<Eigen::Vector3f> flat_side(float rear) {
   return points;
 }
 
-// What two scans tell of it, 0.1 s apart, of a vehicle at rest.
-ScanLesson lesson_of(float rear_before, float rear_now) {
+// What two scans tell of it, 0.1 s apart, of a vehicle that has gone so far.
+ScanLesson lesson_of(float rear_before, float rear_now, double ego_m = 0) {
   const auto before = flat_side(rear_before), now = flat_side(rear_now);
   const SeenSpace seen_before = street_with(before), seen_now = street_with(now);
   const TrackOptions options;
@@ -47,7 +47,7 @@ ScanLesson lesson_of(float rear_before, float rear_now) {
   std::iota(object.points.begin(), object.points.end(), 0);
   object.centroid = mean_of(now);
   object.length = kLength_m;
-  const Pose T_rest_lidar = Pose::Identity();
+  const Pose T_rest_lidar(Eigen::Translation3d(ego_m, 0, 0));
   const Matrix6d exact = Matrix6d::Zero();
   return learn_from_scans(track, object,
                           {scan, T_rest_lidar, exact, seen_now, &seen_before, kStart}, options);
@@ -64,6 +64,12 @@ TEST(ScanFactor, knows_by_its_ends_that_a_flat_side_stands) {
   const ScanLesson lesson = lesson_of(4, 4);
   EXPECT_NEAR(lesson.state.mean[0], 0, 0.1);
   EXPECT_LT(lesson.log_odds, -2);
+}
+
+TEST(ScanFactor, trusts_a_step_less_that_the_beams_themselves_have_made) {
+  const ScanLesson moved = lesson_of(4, 5), kept_to_us = lesson_of(4, 4, 1);
+  EXPECT_NEAR(kept_to_us.state.mean[0], moved.state.mean[0], 0.1);
+  EXPECT_LT(kept_to_us.log_odds, moved.log_odds - 1);
 }
 
 }  // namespace

@@ -19,7 +19,7 @@ using testing::kStart;
 TrackState state_of(double vx, double vy, double yaw_rate) {
   TrackState state;
   state.stamp = kStart;
-  state.mean << 0, 0, 0, vx, vy, yaw_rate;
+  state.mean << 0, 0, 0, vx, vy, yaw_rate, 0, 0;
   return state;
 }
 
@@ -45,6 +45,28 @@ TEST(TrackState, goes_around_a_circle_at_constant_turn_rate) {
   EXPECT_NEAR(later.mean[2], M_PI / 2, 1e-6);
   EXPECT_NEAR(later.mean[3], 0, 1e-5);
   EXPECT_NEAR(later.mean[4], 10, 1e-5);
+}
+
+TEST(TrackState, brakes_on_while_its_acceleration_lasts) {
+  MotionNoise noise;
+  noise.acceleration_time = 1e3;
+  TrackState state = state_of(10, 0, 0);
+  state.mean[6] = -4;
+  const TrackState steady = predicted(state, shifted(kStart, 0.5), noise);
+  EXPECT_NEAR(steady.mean[0], 10 * 0.5 - 0.5 * 4 * 0.25, 1e-3);
+  EXPECT_NEAR(steady.velocity().x(), 8, 1e-2);
+  noise.acceleration_time = 0.01;
+  EXPECT_NEAR(predicted(state, shifted(kStart, 0.5), noise).velocity().x(), 9.96, 1e-6);
+}
+
+TEST(TrackState, learns_its_acceleration_from_sight_to_sight) {
+  TrackState state = new_track_state(kStart, {});
+  for (int i = 1; i <= 12; ++i) {
+    const double t = 0.1 * i, step = 1 - 0.6 * (t * t - (t - 0.1) * (t - 0.1)) / 0.2;
+    state = updated(predicted(from_here(state), shifted(kStart, t), {}), seen_at(step, 0, 0.005));
+  }
+  EXPECT_NEAR(state.velocity().x(), 10 - 6 * 1.2, 0.1);
+  EXPECT_NEAR(state.mean[6], -6, 0.6);
 }
 
 TEST(TrackState, grows_as_uncertain_in_many_small_steps_as_in_a_large_one) {
@@ -113,27 +135,31 @@ TEST(TrackState, learns_its_step_from_its_velocity) {
   TrackState state = predicted(new_track_state(kStart, {}), shifted(kStart, 0.1), {});
   TrackState known = state;
   known.mean[3] = 10;
-  known.covariance.bottomRightCorner<3, 3>() *= 1e-4;
+  known.covariance.bottomRightCorner<5, 5>() *= 1e-4;
   state = with_velocity(state, known);
   EXPECT_NEAR(state.mean.x(), 1, 0.02);
   EXPECT_LT(std::sqrt(state.covariance(0, 0)), 0.1);
 }
 
-// One object's drawn life: white acceleration, a sight every tenth of a second.
+// One object's drawn life: an acceleration that lasts a while, a sight every tenth of a second.
 double sq_velocity_error_in_sigmas(std::mt19937& random, const MotionNoise& noise) {
   std::normal_distribution<double> normal;
   constexpr double kSight_m = 0.03, kPeriod_s = 0.1;
   constexpr int kFine = 20;
   Eigen::Vector2d velocity(noise.unknown_speed_sigma * normal(random),
                            noise.unknown_speed_sigma * normal(random));
+  const auto draw = [&] { return Eigen::Vector2d(normal(random), normal(random)); };
+  Eigen::Vector2d acceleration = noise.acceleration_sigma * draw();
   TrackState state = new_track_state(kStart, noise);
   for (int scan = 1; scan <= 6; ++scan) {
     Eigen::Vector2d step = Eigen::Vector2d::Zero();
     const double dt = kPeriod_s / kFine;
     for (int i = 0; i < kFine; ++i) {
       step += velocity * dt;
-      velocity +=
-          std::sqrt(noise.acceleration * dt) * Eigen::Vector2d(normal(random), normal(random));
+      velocity += acceleration * dt;
+      const double lasts = std::exp(-dt / noise.acceleration_time);
+      acceleration =
+          lasts * acceleration + noise.acceleration_sigma * std::sqrt(1 - lasts * lasts) * draw();
     }
     const Stamp now = shifted(kStart, kPeriod_s * scan);
     state = updated(predicted(state, now, noise),

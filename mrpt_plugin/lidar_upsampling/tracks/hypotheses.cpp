@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 #include "lidar_upsampling/tracks/scan_factor.h"
 #include "lidar_upsampling/units.h"
@@ -77,14 +76,6 @@ TrackState learnt(const TrackState& state, const MotionExpected& expected,
   return updated(state, own, joined(own, step_of(expected), step_of(fit)));
 }
 
-/// Of the picture, unless its points were found at wrong places, where they fit as well as ones of
-/// which nothing is expected: `log_of_any`.
-double log_likelihood(double log_evidence, double log_of_any, const TrackOptions& options) {
-  const double most = std::max(log_evidence, log_of_any);
-  return most + std::log((1 - options.outlier_share) * std::exp(log_evidence - most) +
-                         options.outlier_share * std::exp(log_of_any - most));
-}
-
 /// One of the ways in which the object may move.
 struct Way {
   double probability = 0;
@@ -107,7 +98,7 @@ std::vector<Way> ways_of(const ObjectTrack& track, const MotionQuestion& questio
   if (track.ahead)
     return {way(1, at_instant(track.state), track.expected_at(question.instant, options.noise))};
   std::vector<Way> ways;
-  for (const Course& course : courses_before_images(track, options)) {
+  for (const Course& course : courses_before_images(track)) {
     const TrackState now = at_instant(course.from);
     ways.push_back(way(course.probability, now, now));
   }
@@ -121,7 +112,7 @@ void mix(const std::vector<double>& weights, const std::vector<Gaussian>& parts,
   mixed.covariance.setZero();
   for (std::size_t i = 0; i < parts.size(); ++i) mixed.mean += weights[i] * parts[i].mean;
   for (std::size_t i = 0; i < parts.size(); ++i) {
-    const Twist astray = parts[i].mean - mixed.mean;
+    const auto astray = (parts[i].mean - mixed.mean).eval();
     mixed.covariance += weights[i] * (parts[i].covariance + astray * astray.transpose());
   }
 }
@@ -129,49 +120,69 @@ void mix(const std::vector<double>& weights, const std::vector<Gaussian>& parts,
 /// What a picture makes of the hypotheses.
 struct Heard {
   MotionFit parked;
-  std::vector<MotionFit> moving;          ///< each way
-  std::vector<double> weights;            ///< of the ways, given that it moves
+  std::vector<MotionFit> moving;  ///< each way
+  std::vector<double> right;      ///< probability of each way and of a right picture, if it moves
+  std::vector<double> wrong;      ///< likewise, but the points were found at wrong places
   double log_parked = 0, log_moving = 0;  ///< evidence
 };
 
-void weigh(const std::vector<Way>& ways, double of_any, const TrackOptions& options, Heard& heard) {
-  heard.log_parked = log_likelihood(heard.parked.log_evidence, of_any, options);
-  std::vector<double> logs;
-  for (std::size_t i = 0; i < ways.size(); ++i)
-    logs.push_back(std::log(ways[i].probability) +
-                   log_likelihood(heard.moving[i].log_evidence, of_any, options));
+double log_sum(const std::vector<double>& logs) {
   const double most = *std::max_element(logs.begin(), logs.end());
   double sum = 0;
   for (const double log : logs) sum += std::exp(log - most);
-  heard.log_moving = most + std::log(sum);
-  for (const double log : logs) heard.weights.push_back(std::exp(log - heard.log_moving));
+  return most + std::log(sum);
 }
 
-/// None if few of the followed points agree with either: the picture was asked at wrong places.
-std::optional<Heard> hear(Stamp stamp, const ImageFactor& image, const MotionQuestion& question,
-                          const std::vector<Way>& ways, const MotionExpected& parked,
-                          const std::vector<Twist>& starts, const TrackOptions& options) {
+/// Log-odds that the points were found at wrong places: where they are looked for rightly, the most
+/// of them are found again and agree (a share as Beta(3, 1)), elsewhere few (as Beta(1, 3)).
+double log_odds_of_wrong(int num_agree, int num_followed, const TrackOptions& options) {
+  const double share = 1 / options.points.points_per_observation;
+  const double agree = share * num_agree, lost = share * std::max(0, num_followed - num_agree);
+  return std::log(options.outlier_share / (1 - options.outlier_share)) +
+         std::log((lost + 1) * (lost + 2) / ((agree + 1) * (agree + 2)));
+}
+
+/// Points at wrong places are anywhere, or on what stands behind a mover.
+/// @param of_any log-evidence of points of which nothing is expected.
+void weigh(const std::vector<Way>& ways, double of_any, double odds_of_wrong, Heard& heard) {
+  const double log_right = -std::log1p(std::exp(odds_of_wrong));
+  const double log_wrong = log_right + odds_of_wrong;
+  heard.log_parked = log_sum({heard.parked.log_evidence + log_right, of_any + log_wrong});
+  std::vector<double> logs;
+  for (std::size_t i = 0; i < ways.size(); ++i) {
+    const double of_way = std::log(ways[i].probability);
+    logs.push_back(of_way + heard.moving[i].log_evidence + log_right);
+    logs.push_back(of_way + of_any + log_wrong);
+  }
+  const double log_all = log_sum(logs);
+  heard.log_moving = log_sum({log_all, heard.parked.log_evidence + log_wrong});
+  for (std::size_t i = 0; i < ways.size(); ++i) {
+    heard.right.push_back(std::exp(logs[2 * i] - log_all));
+    heard.wrong.push_back(std::exp(logs[2 * i + 1] - log_all));
+  }
+}
+
+Heard hear(Stamp stamp, const ImageFactor& image, const MotionQuestion& question,
+           const std::vector<Way>& ways, const MotionExpected& parked,
+           const std::vector<Twist>& starts, const TrackOptions& options) {
   const auto fit = [&](const MotionExpected& prior, const std::vector<Twist>& from) {
     return fit_with_scatter(image, question.centroid, prior, from, options.points);
   };
   Heard heard;
   heard.parked = fit(parked, {Twist::Zero()});
-  int agree = heard.parked.num_inliers;
+  int num_agree = heard.parked.num_inliers;
   for (const Way& way : ways) {
     std::vector<Twist> from = starts;
     from.push_back(way.expected.mean);
     heard.moving.push_back(fit(way.expected, from));
-    agree = std::max(agree, heard.moving.back().num_inliers);
+    num_agree = std::max(num_agree, heard.moving.back().num_inliers);
   }
-  // Of few points, half are enough.
-  if (agree < options.min_agreement * static_cast<double>(image.observations.size()) ||
-      agree < std::min<double>(options.min_inliers, 0.5 * question.num_followed))
-    return {};
   MotionExpected any = expected_motion(
       predicted(new_track_state(stamp, options.noise), question.instant, options.noise),
       question.R_rest_lidar_k, seconds_between(stamp, question.instant), options);
   any.covariance += parked.covariance;
-  weigh(ways, fit(any, {heard.moving.front().mean}).log_evidence, options, heard);
+  weigh(ways, fit(any, {heard.moving.front().mean}).log_evidence,
+        log_odds_of_wrong(num_agree, question.num_followed, options), heard);
   return heard;
 }
 
@@ -183,27 +194,32 @@ MotionFit without(const Matrix6d& error, const MotionExpected& expected, MotionF
   return fit;
 }
 
+/// The mixture of all ways, each with a right and with a wrong picture.
 void learn(const Heard& heard, const std::vector<Way>& ways, const MotionExpected& parked,
-           const Matrix6d& of_picture, const MotionQuestion& question, const TrackOptions& options,
-           MotionAnswer& answer) {
-  answer.is_seen = true;
-  answer.parked = heard.parked;
-  answer.moving = heard.moving[std::max_element(heard.weights.begin(), heard.weights.end()) -
-                               heard.weights.begin()];
+           const Matrix6d& of_picture, const MotionQuestion& question, MotionAnswer& answer) {
   std::vector<MotionFit> told;
-  for (std::size_t i = 0; i < ways.size(); ++i)
-    told.push_back(without(of_picture, ways[i].expected, heard.moving[i]));
-  mix(heard.weights, told, answer.moving);
   std::vector<TrackState> states;
-  double acceleration = 0;
+  std::vector<double> weights;
+  double wrong = 0;
   for (std::size_t i = 0; i < ways.size(); ++i) {
+    weights.push_back(heard.right[i]);
+    told.push_back(without(of_picture, ways[i].expected, heard.moving[i]));
     states.push_back(
         learnt(ways[i].state, ways[i].expected, parked, heard.moving[i], question.R_rest_lidar_k));
-    acceleration += heard.weights[i] * states.back().acceleration;
+    weights.push_back(heard.wrong[i]);
+    told.push_back(told.back());
+    told.back().mean = ways[i].expected.mean;
+    told.back().covariance = ways[i].expected.covariance;
+    states.push_back(ways[i].state);
+    wrong += heard.wrong[i];
   }
-  mix(heard.weights, states, answer.state);
-  answer.state.acceleration = acceleration;
-  answer.log_odds += log_likelihood(heard.log_moving, heard.log_parked, options) - heard.log_parked;
+  answer.is_seen = wrong < 0.5;
+  answer.parked = heard.parked;
+  answer.moving =
+      heard.moving[std::max_element(heard.right.begin(), heard.right.end()) - heard.right.begin()];
+  mix(weights, told, answer.moving);
+  mix(weights, states, answer.state);
+  answer.log_odds += heard.log_moving - heard.log_parked;
 }
 
 }  // namespace
@@ -249,9 +265,9 @@ MotionAnswer estimate_motion(const ObjectTrack& track, const ImageFactor& image,
   answer.moving.mean = ways.front().expected.mean;
   answer.moving.covariance = ways.front().expected.covariance;
   answer.parked.covariance = parked.covariance;
-  const auto heard =
-      is_shown ? hear(track.stamp, image, question, ways, parked, starts, options) : std::nullopt;
-  if (heard) learn(*heard, ways, parked, of_picture, question, options, answer);
+  if (is_shown)
+    learn(hear(track.stamp, image, question, ways, parked, starts, options), ways, parked,
+          of_picture, question, answer);
   answer.moves = options.static_test ? answer.log_odds > std::log(options.loss_ratio)
                                      : answer.is_seen || answer.log_odds > 0;
   answer.log_odds = std::clamp(answer.log_odds, -kMostLogOdds, kMostLogOdds);

@@ -51,20 +51,6 @@ void see_anew(ObjectTrack& track, const ScanObject& object, const TrackedScan& s
   track.size = static_cast<double>(object.points.size()) * object.centroid.squaredNorm();
 }
 
-/// It goes on steadily, or manoeuvres: models of two levels of noise (Bar-Shalom et al., 11.6).
-void add_both(const TrackState& state, double probability, const TrackOptions& options,
-              std::vector<Course>& courses) {
-  const double steady = options.noise.acceleration, hard = options.noise.manoeuvre;
-  const double before =
-      hard == steady ? 0 : std::clamp((state.acceleration - steady) / (hard - steady), 0., 1.);
-  const double change = options.manoeuvre_change;
-  const double now = before * (1 - change) + (1 - before) * change;
-  courses.push_back({state, probability * (1 - now)});
-  courses.back().from.acceleration = steady;
-  courses.push_back({state, probability * now});
-  courses.back().from.acceleration = hard;
-}
-
 }  // namespace
 
 Eigen::Matrix2d level_axes(const Eigen::Matrix3d& R_rest_lidar) {
@@ -113,19 +99,17 @@ std::vector<int> take_up_scan(TrackStore& store, const std::vector<ScanObject>& 
 
 std::vector<Course> courses_of(const ObjectTrack& track, const TrackOptions& options) {
   const bool is_told = options.image_factor && track.latest.stamp != track.stamp;
-  if (!is_told && track.on_road) return courses_before_images(track, options);
+  if (!is_told && track.on_road) return courses_before_images(track);
   const double wrong = options.outlier_share;
   std::vector<Course> courses{{new_track_state(track.stamp, options.noise), wrong, true}};
-  add_both(track.latest, 1 - (is_told ? 2 : 1) * wrong, options, courses);
-  if (is_told) add_both(track.state, wrong, options, courses);
+  courses.push_back({track.latest, 1 - (is_told ? 2 : 1) * wrong});
+  if (is_told) courses.push_back({track.state, wrong});
   return courses;
 }
 
-std::vector<Course> courses_before_images(const ObjectTrack& track, const TrackOptions& options) {
+std::vector<Course> courses_before_images(const ObjectTrack& track) {
   if (track.on_road) return {{track.state, 0.5}, {*track.on_road, 0.5}};
-  std::vector<Course> courses;
-  add_both(track.state, 1, options, courses);
-  return courses;
+  return {{track.state, 1}};
 }
 
 TrackState ObjectTrack::expected_at(Stamp instant, const MotionNoise& noise) const {

@@ -25,16 +25,13 @@ struct TrackOptions {
   double moving_prior = 0.3;  ///< probability, of a road user that nothing else is known of
   double loss_ratio = 10;  ///< how much worse a parked object that jumps is than a mover that stays
   double memory_s = 2;     ///< log-odds of moving decay to the prior's within this
-  double birth_density = 2e-4;  ///< new objects per m^2 of the scene, from scan to scan
-  double extent_error = 0.1;    ///< share of its length by which what is seen of an object shifts
-  double manoeuvre_change = 0.05;  ///< probability, from sight to sight, to begin or end one
-  double outlier_share = 0.02;     ///< of registrations, and of pictures, that are wrong
-  double outlier_density = 0.01;   ///< per m^2, of where these lead
-  double common_error_px = 0.25;   ///< what all points of an object have wrong alike on the picture
-  int min_inliers = 6;             ///< fewer followed points that agree are no evidence, nor...
-  double min_agreement = 0.3;      ///< ...is a smaller share of those found
-  double height_sigma_m = 0.02;    ///< vehicles stay on the ground...
-  double tilt_sigma_deg = 0.3;     ///< ...and level...
+  double birth_density = 2e-4;    ///< new objects per m^2 of the scene, from scan to scan
+  double extent_error = 0.1;      ///< share of its length by which what is seen of an object shifts
+  double outlier_share = 0.02;    ///< of registrations, and of pictures, that are wrong
+  double outlier_density = 0.01;  ///< per m^2, of where these lead
+  double common_error_px = 0.25;  ///< what all points of an object have wrong alike on the picture
+  double height_sigma_m = 0.02;   ///< vehicles stay on the ground...
+  double tilt_sigma_deg = 0.3;    ///< ...and level...
   double height_rate_sigma = 0.2;  ///< ...plus these times the time since the key scan, m/s
   double tilt_rate_sigma_deg = 3;  ///< deg/s
 };
@@ -109,8 +106,7 @@ struct Course {
 [[nodiscard]] std::vector<Course> courses_of(const ObjectTrack& track, const TrackOptions& options);
 
 /// @brief Of what images have not told yet, all true.
-[[nodiscard]] std::vector<Course> courses_before_images(const ObjectTrack& track,
-                                                        const TrackOptions& options);
+[[nodiscard]] std::vector<Course> courses_before_images(const ObjectTrack& track);
 
 struct TrackStore {
   std::vector<ObjectTrack> tracks;

@@ -40,9 +40,10 @@ MotionAnswer answer_of_picture(const ObjectTrack& track, const std::optional<Mot
   answer.moving = *fit;
   // Where to look for it on the next picture.
   answer.state.stamp = question.instant;
-  answer.state.mean << level_axes(question.R_rest_lidar_k) * fit->mean.segment<2>(3), fit->mean[2],
-      Eigen::Vector3d::Zero();
-  answer.state.mean.tail<3>() = answer.state.mean.head<3>() / dt;
+  answer.state.mean.setZero();
+  answer.state.mean.head<3>() << level_axes(question.R_rest_lidar_k) * fit->mean.segment<2>(3),
+      fit->mean[2];
+  answer.state.mean.segment<3>(3) = answer.state.mean.head<3>() / dt;
   return answer;
 }
 

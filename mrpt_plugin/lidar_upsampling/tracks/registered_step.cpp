@@ -74,7 +74,7 @@ std::optional<PlanarStep> step_of(const ObjectRegistration& registration, const 
                                   const Eigen::Matrix3d& R_rest_lidar_k) {
   constexpr double kMaxRise_m = 0.1;  // between two scans: road users stay on the road
   constexpr double kYaw = 0.05;       // rad: 10 cm at the ends of a car
-  constexpr double kRegistrationSigma_m = 0.03;
+  constexpr double kRegistrationSigma_m = 0.015;
   if (registration.status != RegistrationStatus::reliable &&
       registration.status != RegistrationStatus::ambiguous)
     return {};

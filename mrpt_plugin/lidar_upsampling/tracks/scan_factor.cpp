@@ -56,21 +56,21 @@ PlanarStep centroid_step(const ObjectTrack& track, const ScanObject& object,
   return step;
 }
 
-/// Whether some of its surface lies across a direction, and not along it.
-bool has_face_across(const std::vector<Eigen::Vector3f>& points, const Eigen::Vector2d& d) {
+/// The share of its surface that lies across a direction, and not along it.
+double share_across(const std::vector<Eigen::Vector3f>& points, const Eigen::Vector2d& d) {
   constexpr float kAcross = 0.5F;  // within 60 degrees
-  constexpr double kShare = 0.1;
   const Surface surface(points);
   int across = 0;
   for (std::size_t i = 0; i < points.size(); ++i)
     across +=
         std::abs(surface.normal(static_cast<int>(i)).head<2>().dot(d.cast<float>())) > kAcross;
-  return across > kShare * static_cast<double>(points.size());
+  return across / static_cast<double>(points.size());
 }
 
 /// Whether what is seen of the object tells a step: by a face across it, or an end that both scans
 /// show. Else its ends are the edges of what hides the rest of it, and their steps are not its own.
 bool tells_step(const TwoSights& sights, const Eigen::Vector2d& step, const TrackedScan& scan) {
+  constexpr double kFace = 0.1;  // of its surface: a face
   if (sights.scans.seen_before == nullptr || step.norm() < 1e-3) return true;
   const Eigen::Vector2d d = step.normalized();
   const ObjectSight before{sights.scans.before, *sights.scans.seen_before};
@@ -79,7 +79,7 @@ bool tells_step(const TwoSights& sights, const Eigen::Vector2d& step, const Trac
   const Eigen::Vector2d d_now = sights.axes_now.transpose() * d;
   return (ends_in_sight(before, d_before) && ends_in_sight(now, d_now)) ||
          (ends_in_sight(before, -d_before) && ends_in_sight(now, -d_now)) ||
-         has_face_across(sights.scans.now, d_now);  // last, as normals take longest
+         share_across(sights.scans.now, d_now) > kFace;  // last, as normals take longest
 }
 
 /// Where the object ends on one side, m along a direction at rest; none if something hides its end.
@@ -121,18 +121,23 @@ void join_ends(const ObjectTrack& track, const TwoSights& sights, const TrackedS
   }
 }
 
-/// Likelihoods of a step. A registration gone astray leads anywhere or, of what moves, sticks to
-/// where that was: views of what comes into sight look as if it stood.
+/// Likelihoods of a step. A registration gone astray leads anywhere; or, of what moves, it sticks
+/// to where that was, as views of what comes into sight look as if it stood; or, of what stands, it
+/// locks to the beams, which go with us.
 class StepLikelihoods {
  public:
-  StepLikelihoods(const PlanarStep& step, const TrackOptions& options)
+  /// @param locked density of the step where it is locked.
+  StepLikelihoods(const PlanarStep& step, double locked, const TrackOptions& options)
       : d_(step.mean.head<2>()),
         R_(step.covariance.topLeftCorner<2, 2>()),
         share_(options.outlier_share),
         astray_(options.outlier_share * options.outlier_density),
-        stands_(gaussian_density(d_, R_ + kCreep_m * kCreep_m * Eigen::Matrix2d::Identity())) {}
+        stands_(gaussian_density(d_, R_ + kCreep_m * kCreep_m * Eigen::Matrix2d::Identity())),
+        locked_(locked) {}
 
-  [[nodiscard]] double parked() const { return (1 - share_) * stands_ + astray_; }
+  [[nodiscard]] double parked() const {
+    return (1 - share_) * stands_ + share_ * locked_ + astray_;
+  }
   /// @param course at the second sight.
   [[nodiscard]] double moving(const TrackState& course) const {
     return (1 - share_) * gaussian_density(d_ - course.mean.head<2>(),
@@ -146,7 +151,7 @@ class StepLikelihoods {
   static constexpr double kCreep_m = 0.01;  // of what stands: points are this coarse
   Eigen::Vector2d d_;
   Eigen::Matrix2d R_;
-  double share_, astray_, stands_;
+  double share_, astray_, stands_, locked_;
 };
 
 /// What the scans tell of the step, the ego-motion's error included.
@@ -164,26 +169,33 @@ PlanarStep measured_step(const ObjectTrack& track, const ScanObject& object,
   return step;
 }
 
+/// Density of a step that keeps to the sensor, if the beams meet surfaces along it only.
+double density_of_locked(const ObjectTrack& track, const std::vector<Eigen::Vector3f>& now,
+                         const PlanarStep& step, const Pose& T_rest_lidar) {
+  const Eigen::Vector3d with_us =
+      T_rest_lidar * (track.T_rest_lidar.inverse() * track.centroid_rest) - track.centroid_rest;
+  const double density = gaussian_density(step.mean.head<2>() - with_us.head<2>(),
+                                          step.covariance.topLeftCorner<2, 2>());
+  const Eigen::Vector2d ahead = level_axes(T_rest_lidar.linear()).transpose() * with_us.head<2>();
+  if (ahead.norm() < 1e-3) return density;
+  return density * (1 - share_across(now, ahead.normalized()));
+}
+
 /// Parked or moving, by the step, and on which course.
 /// @return whether the step may be taken for its own.
-bool judge_step(const ObjectTrack& track, const PlanarStep& step, const TrackOptions& options,
-                ScanLesson& lesson) {
-  const StepLikelihoods likelihood(step, options);
-  double moving = 0, best = 0, known = 0, acceleration = 0;
+bool judge_step(const ObjectTrack& track, const PlanarStep& step, double locked,
+                const TrackOptions& options, ScanLesson& lesson) {
+  const StepLikelihoods likelihood(step, locked, options);
+  double moving = 0, best = 0;
   for (const Course& course : courses_of(track, options)) {
     const TrackState now = predicted(course.from, lesson.state.stamp, options.noise);
     const double here = course.probability * likelihood.moving(now);
     moving += here;
-    if (!course.is_new) {
-      known += here;
-      acceleration += here * course.from.acceleration;
-    }
     if (here <= best) continue;
     best = here;
     lesson.from = course.from;
     lesson.surprises = course.is_new;
   }
-  if (!lesson.surprises) lesson.from.acceleration = acceleration / known;
   lesson.state = predicted(lesson.from, lesson.state.stamp, options.noise);
   lesson.log_odds = std::clamp(lesson.log_odds + std::log(moving / likelihood.parked()),
                                -kMostLogOdds, kMostLogOdds);
@@ -211,7 +223,9 @@ ScanLesson learn_from_scans(const ObjectTrack& track, const ScanObject& object,
                             seconds_between(track.stamp, instant), options);
   if (!options.scan_factor) return lesson;
   const PlanarStep step = measured_step(track, object, scan, lesson.state, options);
-  if (judge_step(track, step, options, lesson)) lesson.state = updated(lesson.state, step);
+  const double locked =
+      density_of_locked(track, points_at(scan.scan, object.points), step, scan.T_rest_lidar);
+  if (judge_step(track, step, locked, options, lesson)) lesson.state = updated(lesson.state, step);
   return lesson;
 }
 

@@ -8,15 +8,16 @@
 /// What is known of one object's motion over ground: the only place with a motion model.
 namespace lidar_upsampling {
 
-/// How road users change their motion, as white noise (Bar-Shalom et al., Estimation with
-/// Applications to Tracking and Navigation, 6.3.2), and what is expected of a new one.
+/// How road users change their motion, and what is expected of a new one. An acceleration lasts a
+/// while (Singer, IEEE Trans. AES 1970; Bar-Shalom et al., Estimation with Applications to Tracking
+/// and Navigation, 8.2.3).
 struct MotionNoise {
   double unknown_speed_sigma = 20;      ///< m/s per axis, of an object seen for the first time
   double aside_speed_sigma = 2;         ///< m/s, likewise, across the road if it follows that
   double unknown_yaw_rate_sigma = 0.3;  ///< rad/s, likewise
-  double acceleration = 0.3;            ///< m^2/s^3: of 0.4 m/s^2 (rms) that last a second, 2 a^2 t
-  double manoeuvre = 10;          ///< m^2/s^3, while one brakes, pulls away, or swerves: 2.2 m/s^2
-  double yaw_acceleration = 0.1;  ///< rad^2/s^3
+  double acceleration_sigma = 2;        ///< m/s^2 per axis
+  double acceleration_time = 2;         ///< s, that it lasts
+  double yaw_acceleration = 0.1;        ///< rad^2/s^3
 };
 
 /// @brief A step over ground: x and y of the object's centroid (m), and its heading (rad).
@@ -29,13 +30,13 @@ struct PlanarStep {
 [[nodiscard]] double gaussian_density(const Eigen::Vector2d& astray,
                                       const Eigen::Matrix2d& covariance);
 
-/// @brief A Gaussian over (x, y, heading, vx, vy, yaw rate): the step since the scan that last
-/// showed the object, and the velocity, in the level axes of a frame at rest. m, rad, s.
+/// @brief A Gaussian over (x, y, heading, vx, vy, yaw rate, ax, ay): the step since the scan that
+/// last showed the object, velocity, and acceleration but for the curve's own, in the level axes of
+/// a frame at rest. m, rad, s.
 struct TrackState {
   Stamp stamp;
-  Twist mean = Twist::Zero();
-  Matrix6d covariance = Matrix6d::Zero();
-  double acceleration = 0;  ///< m^2/s^3, of the noise from now on, if more than the least
+  Eigen::Matrix<double, 8, 1> mean = Eigen::Matrix<double, 8, 1>::Zero();
+  Eigen::Matrix<double, 8, 8> covariance = Eigen::Matrix<double, 8, 8>::Zero();
 
   [[nodiscard]] PlanarStep step() const {
     return {mean.head<3>(), covariance.topLeftCorner<3, 3>()};
@@ -50,7 +51,8 @@ struct TrackState {
 /// @param heading of the road, rad.
 [[nodiscard]] TrackState along_road(TrackState state, double heading, const MotionNoise& noise);
 
-/// @brief At constant turn rate and velocity, but for the noise; nothing changes backwards in time.
+/// @brief At constant turn rate, with a fading acceleration, but for the noise; nothing changes
+/// backwards in time.
 [[nodiscard]] TrackState predicted(const TrackState& state, Stamp stamp, const MotionNoise& noise);
 
 /// @brief The state given what has been found of its step.
@@ -68,7 +70,7 @@ struct TrackState {
 [[nodiscard]] TrackState smoothed(const TrackState& state, const TrackState& later,
                                   const MotionNoise& noise);
 
-/// @brief The state given what is known of its velocity.
+/// @brief The state given what is known of its velocity and acceleration.
 /// @param known at the same stamp; its step is not looked at.
 [[nodiscard]] TrackState with_velocity(const TrackState& state, const TrackState& known);
 
