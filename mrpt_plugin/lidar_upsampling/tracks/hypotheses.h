@@ -36,8 +36,8 @@ struct MotionAnswer {
                                              const Eigen::Matrix3d& R_rest_lidar_k, double dt,
                                              const TrackOptions& options);
 
-/// @brief Both hypotheses, and which of them is to be told. Where few of the followed points agree
-/// with either, the picture was asked at the wrong place and says nothing.
+/// @brief Both hypotheses, and which of them is to be told. The fewer of the followed points agree
+/// with either, the likelier the picture was asked at a wrong place, and the less it says.
 /// @param starts motions from which the picture may be explained; the expected one is among them.
 [[nodiscard]] MotionAnswer estimate_motion(const ObjectTrack& track, const ImageFactor& image,
                                            const MotionQuestion& question,
