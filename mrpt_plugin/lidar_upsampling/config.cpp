@@ -201,6 +201,7 @@ void leave_the_picture_alone(Config& config) {
   config.object_motion.picture.min_points = 20;
   config.object_motion.picture.pose.min_inliers = 15;
   config.object_tracks.scan_factor = false;
+  config.object_tracks.piece_share = 0;
 }
 
 }  // namespace

@@ -244,6 +244,9 @@ void visit_tracks(Config& c, SettingVisitor& v) {
   v.number("yaw_acceleration_rad2_s3", t.noise.yaw_acceleration, kPositive,
            "white noise by which yaw rates change");
   v.number("birth_density_per_m2", t.birth_density, kPositive, "new objects from scan to scan");
+  v.number(
+      "piece_share", t.piece_share, kShare,
+      "of moving objects, that a scan shows in pieces; 0: new ones are no piece of known ones");
   v.number("extent_error", t.extent_error, kPositive,
            "share of its length by which what is seen of an object shifts");
   v.number("outlier_share", t.outlier_share, kProbability,

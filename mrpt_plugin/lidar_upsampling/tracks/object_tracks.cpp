@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 
 #include "lidar_upsampling/tracks/scan_factor.h"
@@ -51,6 +52,70 @@ void see_anew(ObjectTrack& track, const ScanObject& object, const TrackedScan& s
   track.size = static_cast<double>(object.points.size()) * object.centroid.squaredNorm();
 }
 
+/// Between an object and where a track's points are by now if it moves, m; infinite where that is
+/// far.
+double gap_between(const ScanObject& object, const ObjectTrack& track, const TrackedScan& scan,
+                   const TrackOptions& options) {
+  constexpr double kFar_m = 3;
+  const TrackState now = predicted(track.latest, scan.scan.stamp, options.noise);
+  const Eigen::Translation3d step(now.mean[0], now.mean[1], 0);
+  const Pose T_lidar_rest = scan.T_rest_lidar.inverse() * step;
+  double sq_gap = std::numeric_limits<double>::infinity();
+  if ((T_lidar_rest * track.centroid_rest - object.centroid).norm() >
+      object.length + track.length + kFar_m)
+    return sq_gap;
+  const Eigen::Isometry3f T_lidar_track = (T_lidar_rest * track.T_rest_lidar).cast<float>();
+  for (const Eigen::Vector3f& point : track.points) {
+    const Eigen::Vector3f there = T_lidar_track * point;
+    for (const int i : object.points)
+      sq_gap = std::min<double>(sq_gap, (scan.scan.points[i] - there).head<2>().squaredNorm());
+  }
+  return std::sqrt(sq_gap);
+}
+
+/// Density (1/m^2) of the object as a piece of what moves.
+double piece_density(const ScanObject& object, const ObjectTrack& track, const TrackedScan& scan,
+                     const TrackOptions& options) {
+  constexpr double kGap_m = 0.7;  // between pieces
+  constexpr double kCar_m = 4;    // as long is any, at least, whatever is seen of it
+  if (track.external_id >= 0 && object.external_id >= 0) return 0;  // the detector parts them
+  const double gap = gap_between(object, track, scan, options);
+  const double length = std::max({kCar_m, track.length, object.length});
+  return options.piece_share / (1 + std::exp(-track.log_odds)) *
+         std::exp(-0.5 * std::pow(gap / kGap_m, 2)) / (length * length);
+}
+
+/// A new object, which may be a piece of one that moves and then moves as that does; else, if it
+/// moves, it goes anywhere, or our road. What is beside something parked may come out from behind
+/// it.
+ObjectTrack new_track(const ScanObject& object, const TrackedScan& scan,
+                      const std::vector<ObjectTrack>& tracks, std::size_t num_known,
+                      const TrackOptions& options) {
+  constexpr double kWorthAFit = 1e-3;
+  const TrackState any = new_track_state(shifted(scan.scan.stamp, object.time_s), options.noise);
+  double most = 0;
+  TrackState as_whole = any;
+  for (std::size_t i = 0; i < num_known; ++i) {
+    const double here = piece_density(object, tracks[i], scan, options);
+    if (here <= most) continue;
+    most = here;
+    as_whole = from_here(predicted(tracks[i].state, any.stamp, options.noise));
+    as_whole.stamp = any.stamp;
+  }
+  const double is_piece = most / (most + options.birth_density);
+  const double moves = is_piece + (1 - is_piece) * options.moving_prior;
+  ObjectTrack track;
+  const double along = is_piece / moves, alone = (1 - along) / 2;
+  track.beginnings = {{any, alone}, {along_road(any, heading_of(scan), options.noise), alone}};
+  if (along > kWorthAFit)
+    track.beginnings.insert(along > alone ? track.beginnings.begin() : track.beginnings.end(),
+                            {as_whole, along});
+  track.state = track.beginnings.front().from;
+  track.log_odds = std::log(moves / (1 - moves));
+  see_anew(track, object, scan);
+  return track;
+}
+
 }  // namespace
 
 Eigen::Matrix2d level_axes(const Eigen::Matrix3d& R_rest_lidar) {
@@ -73,33 +138,30 @@ std::vector<int> take_up_scan(TrackStore& store, const std::vector<ScanObject>& 
   };
   tracks.erase(std::remove_if(tracks.begin(), tracks.end(), lost), tracks.end());
   std::vector<int> track_of = associate(tracks, objects, scan, options);
-  const int first_new = static_cast<int>(tracks.size());
-  for (int& track : track_of) {
-    if (track >= 0) continue;
-    track = static_cast<int>(tracks.size());
-    tracks.emplace_back().id = store.next_id++;
-  }
+  const std::size_t num_known = tracks.size();
   tbb::parallel_for(std::size_t{0}, objects.size(), [&](std::size_t i) {
+    if (track_of[i] < 0) return;
     ObjectTrack& track = tracks[track_of[i]];
-    if (track_of[i] < first_new) {
-      const ScanLesson lesson = learn_from_scans(track, objects[i], scan, options);
-      track.passage = Passage{lesson.from, lesson.state, lesson.surprises};
-      track.state = from_here(lesson.state);
-      track.on_road.reset();
-      track.log_odds = lesson.log_odds;
-    } else {
-      track.state = new_track_state(shifted(scan.scan.stamp, objects[i].time_s), options.noise);
-      track.on_road = along_road(track.state, heading_of(scan), options.noise);
-      track.log_odds = prior_log_odds(options);
-    }
+    const ScanLesson lesson = learn_from_scans(track, objects[i], scan, options);
+    track.passage = Passage{lesson.from, lesson.state, lesson.surprises};
+    track.state = from_here(lesson.state);
+    track.beginnings.clear();
+    track.log_odds = lesson.log_odds;
     see_anew(track, objects[i], scan);
   });
+  for (std::size_t i = 0; i < objects.size(); ++i) {
+    if (track_of[i] >= 0) continue;
+    track_of[i] = static_cast<int>(tracks.size());
+    ObjectTrack track = new_track(objects[i], scan, tracks, num_known, options);
+    track.id = store.next_id++;
+    tracks.push_back(std::move(track));
+  }
   return track_of;
 }
 
 std::vector<Course> courses_of(const ObjectTrack& track, const TrackOptions& options) {
   const bool is_told = options.image_factor && track.latest.stamp != track.stamp;
-  if (!is_told && track.on_road) return courses_before_images(track);
+  if (!is_told && !track.beginnings.empty()) return track.beginnings;
   const double wrong = options.outlier_share;
   std::vector<Course> courses{{new_track_state(track.stamp, options.noise), wrong, true}};
   courses.push_back({track.latest, 1 - (is_told ? 2 : 1) * wrong});
@@ -108,8 +170,8 @@ std::vector<Course> courses_of(const ObjectTrack& track, const TrackOptions& opt
 }
 
 std::vector<Course> courses_before_images(const ObjectTrack& track) {
-  if (track.on_road) return {{track.state, 0.5}, {*track.on_road, 0.5}};
-  return {{track.state, 1}};
+  if (track.beginnings.empty()) return {{track.state, 1}};
+  return track.beginnings;
 }
 
 TrackState ObjectTrack::expected_at(Stamp instant, const MotionNoise& noise) const {

@@ -26,6 +26,7 @@ struct TrackOptions {
   double loss_ratio = 10;  ///< how much worse a parked object that jumps is than a mover that stays
   double memory_s = 2;     ///< log-odds of moving decay to the prior's within this
   double birth_density = 2e-4;    ///< new objects per m^2 of the scene, from scan to scan
+  double piece_share = 0.05;      ///< of moving objects, that a scan shows in pieces
   double extent_error = 0.1;      ///< share of its length by which what is seen of an object shifts
   double outlier_share = 0.02;    ///< of registrations, and of pictures, that are wrong
   double outlier_density = 0.01;  ///< per m^2, of where these lead
@@ -44,6 +45,13 @@ struct ScanObject {
   Eigen::Vector3d centroid = Eigen::Vector3d::Zero();  ///< lidar frame
   double length = 0;                                   ///< m, of the footprint
   double time_s = 0;  ///< of its points' measurement, from the scan's stamp
+};
+
+/// How an object that moves may go on from its last sight.
+struct Course {
+  TrackState from;
+  double probability = 0;
+  bool is_new = false;  ///< nothing that was known of it is true
 };
 
 /// From one sight of an object to the next.
@@ -69,15 +77,15 @@ struct ObjectTrack {
   Pose T_rest_lidar;                    ///< then
   std::vector<Eigen::Vector3f> points;  ///< lidar frame then
   Eigen::Vector3d centroid_rest = Eigen::Vector3d::Zero();
-  double size = 0;             ///< what is seen of it: points times squared range, as an area
-  double length = 0;           ///< m, of what is seen of it
-  TrackState state;            ///< at `stamp`
-  double log_odds = 0;         ///< of moving, at `stamp`
-  TrackState latest;           ///< with what the last image since then told
-  double latest_log_odds = 0;  ///< likewise
-  std::optional<TrackState> on_road;  ///< of a new one, likewise at `stamp`: if it goes our road
-  std::optional<Passage> passage;     ///< from the sight before to the last one
-  std::optional<Ahead> ahead;         ///< where scans to come are known and show it
+  double size = 0;                 ///< what is seen of it: points times squared range, as an area
+  double length = 0;               ///< m, of what is seen of it
+  TrackState state;                ///< at `stamp`
+  double log_odds = 0;             ///< of moving, at `stamp`
+  TrackState latest;               ///< with what the last image since then told
+  double latest_log_odds = 0;      ///< likewise
+  std::vector<Course> beginnings;  ///< of a new one, at `stamp`, the likeliest first
+  std::optional<Passage> passage;  ///< from the sight before to the last one
+  std::optional<Ahead> ahead;      ///< where scans to come are known and show it
 
   /// All that is known before the image is looked at.
   [[nodiscard]] TrackState expected_at(Stamp instant, const MotionNoise& noise) const;
@@ -94,15 +102,8 @@ struct TrackedScan {
   Stamp stamp_before;
 };
 
-/// How an object that moves may go on from its last sight.
-struct Course {
-  TrackState from;
-  double probability = 0;
-  bool is_new = false;  ///< nothing that was known of it is true
-};
-
 /// @brief As images have told since, as known before (they may be wrong), or any (that may be,
-/// too); as long as nothing has told: anywhere, or our road. The probabilities sum to one.
+/// too); as long as nothing has told: its beginnings. The probabilities sum to one.
 [[nodiscard]] std::vector<Course> courses_of(const ObjectTrack& track, const TrackOptions& options);
 
 /// @brief Of what images have not told yet, all true.

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the lidar_upsampling authors
+#include <gtest/gtest.h>
+
+#include <numeric>
+
+#include "lidar_upsampling/tracks/object_tracks.h"
+#include "lidar_upsampling/tracks/scan_factor.h"
+
+#include "tracks/car_on_pictures.h"
+
+namespace lidar_upsampling {
+namespace {
+
+using testing::kStart;
+
+/// A scan of one wall of a bus along x, in pieces.
+struct BusScan {
+  /// @param pieces where each begins, and its length.
+  BusScan(double time_s, const std::vector<std::pair<double, double>>& pieces) {
+    scan.stamp = shifted(kStart, time_s);
+    for (const auto& [begin, length] : pieces) {
+      ScanObject piece;
+      for (double x = begin; x < begin + length; x += 0.2) {
+        piece.points.push_back(static_cast<int>(scan.points.size()));
+        scan.points.emplace_back(static_cast<float>(x), 5.F, 0.F);
+      }
+      piece.centroid = {begin + 0.5 * length, 5, 0};
+      piece.length = length;
+      objects.push_back(piece);
+    }
+  }
+  std::vector<int> take_up(TrackStore& store) const {
+    return take_up_scan(store, objects, {scan, T_rest_lidar, step_covariance, seen, nullptr, {}},
+                        {});
+  }
+
+  LidarScan scan;
+  std::vector<ScanObject> objects;
+  Pose T_rest_lidar = Pose::Identity();
+  Matrix6d step_covariance = Matrix6d::Zero();
+  SeenSpace seen{{}, 0.4};
+};
+
+/// The track of the second piece of a bus that has been seen whole for some scans.
+ObjectTrack second_piece_of_bus(double speed_m_s) {
+  TrackStore store;
+  for (int i = 0; i < 4; ++i) BusScan(0.1 * i, {{20 + 0.1 * i * speed_m_s, 2.}}).take_up(store);
+  const BusScan broken(0.4, {{20 + 0.4 * speed_m_s, 2.}, {22.5 + 0.4 * speed_m_s, 4.}});
+  return store.tracks[broken.take_up(store)[1]];
+}
+
+TEST(Pieces, of_what_moves_move_as_the_whole_does) {
+  const ObjectTrack piece = second_piece_of_bus(10);
+  EXPECT_EQ(piece.id, 1);
+  EXPECT_GT(piece.log_odds, 1);
+  EXPECT_NEAR(piece.expected_at(shifted(kStart, 0.5), {}).mean[0], 1, 0.1);
+}
+
+TEST(Pieces, may_be_something_else) {
+  const std::vector<Course> courses = courses_before_images(second_piece_of_bus(10));
+  ASSERT_EQ(courses.size(), 3U);
+  double sum = 0;
+  for (const Course& course : courses) sum += course.probability;
+  EXPECT_NEAR(sum, 1, 1e-9);
+  EXPECT_LT(courses.front().probability, 0.99);
+}
+
+TEST(Pieces, are_not_told_of_what_comes_into_sight_beside_a_parked_bus) {
+  const ObjectTrack piece = second_piece_of_bus(0);
+  EXPECT_EQ(piece.id, 1);
+  EXPECT_NEAR(piece.log_odds, prior_log_odds({}), 0.3);
+  EXPECT_GT(piece.state.covariance(3, 3), 100);
+}
+
+}  // namespace
+}  // namespace lidar_upsampling
