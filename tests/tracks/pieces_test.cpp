@@ -2,7 +2,8 @@
 // Copyright (c) 2026, the lidar_upsampling authors
 #include <gtest/gtest.h>
 
-#include <numeric>
+#include <utility>
+#include <vector>
 
 #include "lidar_upsampling/tracks/object_tracks.h"
 #include "lidar_upsampling/tracks/scan_factor.h"

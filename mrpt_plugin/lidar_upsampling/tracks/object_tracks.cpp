@@ -56,7 +56,7 @@ void see_anew(ObjectTrack& track, const ScanObject& object, const TrackedScan& s
 /// far.
 double gap_between(const ScanObject& object, const ObjectTrack& track, const TrackedScan& scan,
                    const TrackOptions& options) {
-  constexpr double kFar_m = 3;
+  constexpr double kFar_m = 3;  // four sigmas of the gap: saves work, tells nothing else
   const TrackState now = predicted(track.latest, scan.scan.stamp, options.noise);
   const Eigen::Translation3d step(now.mean[0], now.mean[1], 0);
   const Pose T_lidar_rest = scan.T_rest_lidar.inverse() * step;
@@ -91,7 +91,7 @@ double piece_density(const ScanObject& object, const ObjectTrack& track, const T
 ObjectTrack new_track(const ScanObject& object, const TrackedScan& scan,
                       const std::vector<ObjectTrack>& tracks, std::size_t num_known,
                       const TrackOptions& options) {
-  constexpr double kWorthAFit = 1e-3;
+  constexpr double kWorthAFit = 1e-3;  // of probability: each way costs a fit per image
   const TrackState any = new_track_state(shifted(scan.scan.stamp, object.time_s), options.noise);
   double most = 0;
   TrackState as_whole = any;
