@@ -89,6 +89,7 @@ class LidarUpsampler {
   [[nodiscard]] CameraEgoOptions camera_ego_options(double dt) const;
   [[nodiscard]] EgoStep camera_step(const CameraView& view, const Picture& picture,
                                     const EgoStep& predicted);
+  [[nodiscard]] std::vector<Eigen::Vector3f> standing_points(const PreparedScan& before) const;
   void step_between_scans(const PreparedScan& before, PreparedScan& now);
   // Real scans (upsampler_scans.cpp).
   [[nodiscard]] double turn_s() const;

@@ -10,6 +10,7 @@
 #include "lidar_upsampling/registration/scan_registration.h"
 #include "lidar_upsampling/se3.h"
 #include "lidar_upsampling/stopwatch.h"
+#include "lidar_upsampling/tracks/scan_factor.h"
 #include "lidar_upsampling/upsampler.h"
 
 namespace lidar_upsampling {
@@ -82,6 +83,24 @@ EgoStep LidarUpsampler::camera_step(const CameraView& view, const Picture& pictu
   return {step->T_lidar_t_lidar_k, false, step->covariance};
 }
 
+// All but those of road users that are not known to be parked: what moves along with us, or alone
+// stands out, would be taken for the world.
+std::vector<Eigen::Vector3f> LidarUpsampler::standing_points(const PreparedScan& before) const {
+  const bool are_tracked = &before == key_.get() && track_of_.size() == before.objects.size();
+  std::vector<bool> may_move(before.scan.size(), false);
+  for (std::size_t i = 0; i < before.objects.size(); ++i) {
+    const bool is_parked =
+        are_tracked && store_.tracks[track_of_[i]].log_odds < prior_log_odds(config_.object_tracks);
+    if (is_parked) continue;
+    for (const int point : before.objects[i].points) may_move[point] = true;
+  }
+  std::vector<Eigen::Vector3f> points;
+  points.reserve(may_move.size());
+  for (std::size_t i = 0; i < may_move.size(); ++i)
+    if (!may_move[i]) points.push_back(before.scan.points[i]);
+  return points;
+}
+
 void LidarUpsampler::step_between_scans(const PreparedScan& before, PreparedScan& now) {
   now.motion = {before.motion.rate, false};
   now.step_covariance.setZero();
@@ -90,8 +109,11 @@ void LidarUpsampler::step_between_scans(const PreparedScan& before, PreparedScan
   now.T_scan_before = given ? given->T_to_from : exp_se3(Twist(before.motion.rate * dt));
   if (given && !ego_motion_.fuses()) return;
   const Stopwatch watch(timing_, "scan registration");
-  const auto registration = register_scans(before.scan.points, now.scan.points, now.T_scan_before,
-                                           config_.scan_registration);
+  auto registration = register_scans(standing_points(before), now.scan.points, now.T_scan_before,
+                                     config_.scan_registration);
+  if (!registration && !given)  // better than nothing
+    registration = register_scans(before.scan.points, now.scan.points, now.T_scan_before,
+                                  config_.scan_registration);
   if (!registration) return;
   EgoStep step = step_of(*registration);
   if (given) {

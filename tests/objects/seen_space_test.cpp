@@ -30,9 +30,26 @@ TEST(SeenSpace, beams_have_passed_what_lies_before_a_surface) {
 TEST(SeenSpace, the_surface_itself_is_open) { EXPECT_EQ(wall().at({20.2F, 2, 1}), Sight::open); }
 
 TEST(SeenSpace, nothing_is_known_where_no_beam_went) {
-  EXPECT_EQ(wall().at({10, 10, 0}), Sight::open);
-  EXPECT_EQ(wall().at({-25, 0, 0}), Sight::open);
+  EXPECT_EQ(wall().at({20, 0, 6}), Sight::open);
   EXPECT_EQ(wall().at({0.1F, 0, 30}), Sight::open);
+  EXPECT_EQ(SeenSpace({}, 1).at({10, 10, 0}), Sight::open);
+}
+
+TEST(SeenSpace, where_the_sensor_does_not_look_all_is_out_of_sight) {
+  EXPECT_EQ(wall().at({10, 10, 0}), Sight::hidden);
+  EXPECT_EQ(wall().at({-25, 0, 0}), Sight::hidden);
+  EXPECT_TRUE(wall().is_out_of_sight({10, 10, 0}));
+  EXPECT_FALSE(wall().is_out_of_sight({10, 1, 0}));
+}
+
+TEST(SeenSpace, a_few_beams_without_an_echo_are_no_end_of_the_view) {
+  std::vector<Eigen::Vector3f> points;
+  for (float azimuth = -1; azimuth < 1; azimuth += 0.0035F)
+    if (std::abs(azimuth) > 0.05F)
+      points.emplace_back(10 * std::cos(azimuth), 10 * std::sin(azimuth), 0);
+  const SeenSpace seen(points, 1);
+  EXPECT_EQ(seen.at({5, 0, 0}), Sight::open);
+  EXPECT_FALSE(seen.is_out_of_sight({20, 0, 0}));
 }
 
 TEST(SeenSpace, beside_an_edge_beams_disagree_and_tell_nothing) {

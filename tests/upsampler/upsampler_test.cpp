@@ -167,6 +167,15 @@ TEST(LidarUpsampler, without_poses_the_camera_gives_the_ego_motion) {
   expect_close_to_truth(street, scans, 0.08, 0.15);
 }
 
+TEST(LidarUpsampler, cars_all_round_that_drive_as_fast_are_not_taken_for_the_world) {
+  StreetRun street(
+      "[lidar]\nmax_range_m = 10\n[static]\nparked_cars = 0\ntrees = 0\n[vehicle.lead]\nx_m = 7\n"
+      "speed_mps = 9\n[vehicle.oncoming]\nx_m = 1\ny_m = 1.7\nyaw_deg = 0\nspeed_mps = 9\n"
+      "[vehicle.behind]\nx_m = -7\ny_m = -1.7\nspeed_mps = 9\n");
+  LidarUpsampler upsampler{moving_points()};
+  expect_close_to_truth(street, street.run(upsampler), 0.02, 0.1);
+}
+
 TEST(LidarUpsampler, a_camera_with_unrelated_stamps_works_as_well) {
   StreetRun street("[scenario]\nduration_s = 1\n[camera.CAM0]\nrate_hz = 15\nphase_s = 0.0231\n");
   LidarUpsampler upsampler{moving_points()};

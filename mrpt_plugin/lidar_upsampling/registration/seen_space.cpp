@@ -20,6 +20,27 @@ constexpr float kTurn = static_cast<float>(2 * M_PI);
 constexpr double kColumn_deg = 0.5;  // wider than any spinning LiDAR's step
 constexpr double kRoom = 1.2;        // so that no row lies between two rings
 constexpr float kMargin_m = 0.5F;    // surfaces are inclined, and objects have depth
+constexpr double kBlind_deg = 10;    // no beam for as long: the sensor does not look there
+
+/// Whether each column of a circle is empty, and so are at least as many in a row.
+std::vector<bool> in_long_runs(const std::vector<bool>& empty, int least) {
+  const int size = static_cast<int>(empty.size());
+  std::vector<bool> result(size, false);
+  const auto first_beam = std::find(empty.begin(), empty.end(), false) - empty.begin();
+  if (first_beam == size) return result;
+  int run = 0;
+  for (int i = 1; i <= size; ++i) {
+    const int column = (static_cast<int>(first_beam) + i) % size;
+    if (empty[column]) {
+      ++run;
+      continue;
+    }
+    for (int back = 1; run >= least && back <= run; ++back)
+      result[(column - back + size) % size] = true;
+    run = 0;
+  }
+  return result;
+}
 
 }  // namespace
 
@@ -47,6 +68,10 @@ SeenSpace::SeenSpace(const std::vector<Eigen::Vector3f>& points, double vertical
     cell.nearest = std::min(cell.nearest, beam.range);
     cell.farthest = std::max(cell.farthest, beam.range);
   }
+  std::vector<bool> is_empty(columns_, true);
+  for (const Beam& beam : beams)
+    if (beam.cell >= 0) is_empty[beam.cell % columns_] = false;
+  is_out_of_view_ = in_long_runs(is_empty, static_cast<int>(kBlind_deg / kColumn_deg));
 }
 
 int SeenSpace::row_of(const Eigen::Vector3f& place) const {
@@ -63,6 +88,7 @@ Sight SeenSpace::at(const Eigen::Vector3f& place) const {
   const int row = row_of(place);
   if (row < 0) return Sight::open;
   const int column = column_of(place);
+  if (is_out_of_view_[column]) return Sight::hidden;
   const float range = place.norm();
   int behind = 0, before = 0, beams = 0;
   for (int step = -1; step <= 1; ++step) {
@@ -78,10 +104,11 @@ Sight SeenSpace::at(const Eigen::Vector3f& place) const {
   return behind == beams ? Sight::seen_through : Sight::open;
 }
 
-bool SeenSpace::is_behind_something(const Eigen::Vector3f& place) const {
-  const int row = row_of(place);
+bool SeenSpace::is_out_of_sight(const Eigen::Vector3f& place) const {
+  const int row = row_of(place), column = column_of(place);
+  if (is_out_of_view_[column]) return true;
   if (row < 0) return false;
-  const Reach& cell = cells_[static_cast<std::size_t>(row) * columns_ + column_of(place)];
+  const Reach& cell = cells_[static_cast<std::size_t>(row) * columns_ + column];
   return cell.farthest > 0 && cell.nearest < place.norm() - kMargin_m;
 }
 

@@ -10,7 +10,7 @@ namespace lidar_upsampling {
 /// What a scan tells of a place.
 enum class Sight {
   open,         ///< a surface there would be, or is, seen; or nothing is known
-  hidden,       ///< it lies behind what was measured
+  hidden,       ///< it lies behind what was measured, or where the sensor does not look
   seen_through  ///< beams passed it: nothing is there
 };
 
@@ -25,8 +25,8 @@ class SeenSpace {
   /// open.
   [[nodiscard]] Sight at(const Eigen::Vector3f& place) const;
   /// @brief Whether something nearer stands in the place's own direction, of what was measured
-  /// there.
-  [[nodiscard]] bool is_behind_something(const Eigen::Vector3f& place) const;
+  /// there, or the sensor does not look that way.
+  [[nodiscard]] bool is_out_of_sight(const Eigen::Vector3f& place) const;
 
  private:
   struct Reach {
@@ -38,6 +38,7 @@ class SeenSpace {
   float per_row_, per_column_;  ///< 1 / rad
   int rows_, columns_;
   std::vector<Reach> cells_;
+  std::vector<bool> is_out_of_view_;  ///< columns
 };
 
 }  // namespace lidar_upsampling

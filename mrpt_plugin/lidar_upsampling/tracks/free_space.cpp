@@ -28,7 +28,7 @@ bool ends_in_sight(const ObjectSight& object, const Eigen::Vector2d& ahead) {
     if (direction.dot(point) < front - kEnd_m) continue;
     ++count;
     hidden += std::any_of(kFurther_m.begin(), kFurther_m.end(), [&](float further) {
-      return object.seen.is_behind_something(point + further * direction);
+      return object.seen.is_out_of_sight(point + further * direction);
     });
   }
   return 2 * hidden < count;
