@@ -5,6 +5,7 @@
 
 #include "lidar_upsampling/camera_view.h"
 #include "lidar_upsampling/objects/beam_step.h"
+#include "lidar_upsampling/partly_hidden.h"
 #include "lidar_upsampling/prepared_scan.h"
 #include "lidar_upsampling/scan/sweep.h"
 #include "lidar_upsampling/scan_objects.h"
@@ -88,6 +89,8 @@ void LidarUpsampler::take_up(const Picture* anchor) {
     key_->other_clusters.clear();
   }
   track_of_ = take_up_scan(store_, key_->objects, key_->tracked(), config_.object_tracks);
+  if (config_.object_motion.world_tracks)
+    take_up_partly_hidden(*key_, store_, track_of_, config_.object_tracks);
   is_taken_up_ = true;
   std::vector<ScanToCome> to_come;
   for (const auto& next : to_come_) to_come.push_back({next->objects, next->tracked()});

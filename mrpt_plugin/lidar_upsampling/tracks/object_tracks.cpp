@@ -159,6 +159,27 @@ std::vector<int> take_up_scan(TrackStore& store, const std::vector<ScanObject>& 
   return track_of;
 }
 
+ObjectTrack gone_on(ObjectTrack track, TrackState now, const Pose& T_rest_lidar,
+                    const TrackOptions& options) {
+  Twist motion = Twist::Zero();
+  motion[2] = now.mean[2];
+  motion.segment<2>(3) = now.mean.head<2>();
+  const Pose T_rest_then = motion_pose(motion, track.centroid_rest) * track.T_rest_lidar;
+  const Eigen::Isometry3f T_lidar_then = (T_rest_lidar.inverse() * T_rest_then).cast<float>();
+  for (Eigen::Vector3f& point : track.points) point = T_lidar_then * point;
+  track.centroid_rest.head<2>() += now.mean.head<2>();
+  track.T_rest_lidar = T_rest_lidar;
+  track.log_odds = decayed(track.latest_log_odds, seconds_between(track.stamp, now.stamp), options);
+  track.latest_log_odds = track.log_odds;
+  track.stamp = now.stamp;
+  now.mean.head<3>().setZero();  // its covariance stays: that is how well its place is known
+  track.state = track.latest = now;
+  track.beginnings.clear();
+  track.passage.reset();
+  track.ahead.reset();
+  return track;
+}
+
 std::vector<Course> courses_of(const ObjectTrack& track, const TrackOptions& options) {
   const bool is_told = options.image_factor && track.latest.stamp != track.stamp;
   if (!is_told && !track.beginnings.empty()) return track.beginnings;

@@ -73,9 +73,9 @@ struct ObjectTrack {
   int id = -1;
   int external_id = -1;  ///< the detector's own identity, -1 if none
   std::string class_name;
-  Stamp stamp;                          ///< of its last sight in a scan
-  Pose T_rest_lidar;                    ///< then
-  std::vector<Eigen::Vector3f> points;  ///< lidar frame then
+  Stamp stamp;                           ///< of its last sight in a scan
+  Pose T_rest_lidar = Pose::Identity();  ///< then
+  std::vector<Eigen::Vector3f> points;   ///< lidar frame then
   Eigen::Vector3d centroid_rest = Eigen::Vector3d::Zero();
   double size = 0;                 ///< what is seen of it: points times squared range, as an area
   double length = 0;               ///< m, of what is seen of it
@@ -122,6 +122,11 @@ constexpr double kMostLogOdds = 8;
 /// @return the track of each object, a position in `store.tracks`.
 std::vector<int> take_up_scan(TrackStore& store, const std::vector<ScanObject>& objects,
                               const TrackedScan& scan, const TrackOptions& options);
+
+/// @brief The track as it must be by now; all that was seen of it comes along.
+/// @param now its state as predicted.
+[[nodiscard]] ObjectTrack gone_on(ObjectTrack track, TrackState now, const Pose& T_rest_lidar,
+                                  const TrackOptions& options);
 
 /// A scan to come, with its objects.
 struct ScanToCome {

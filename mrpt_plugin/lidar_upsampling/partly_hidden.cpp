@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the lidar_upsampling authors
+#include "lidar_upsampling/partly_hidden.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "lidar_upsampling/registration/point_index.h"
+
+namespace lidar_upsampling {
+namespace {
+
+constexpr float kReach_m = 0.3F;  // of an object's points, from where they will be
+constexpr double kMostly = 0.3;   // share of a cluster that speaks for all of it
+
+/// Whether it moves, and it is known where it is.
+bool is_predictable(const ObjectTrack& track, const TrackState& now, const TrackOptions& options) {
+  const double log_odds = track.latest_log_odds;
+  return log_odds > std::log(options.loss_ratio) &&
+         now.covariance.topLeftCorner<2, 2>().trace() < 2 * kReach_m * kReach_m;
+}
+
+}  // namespace
+
+std::vector<int> with_their_clusters(const PreparedScan& scan,
+                                     const std::function<bool(int)>& belongs) {
+  const SceneSegments& segments = scan.segments;
+  const bool has_ground = segments.ground.status == GroundStatus::found;
+  std::vector<int> points, count(segments.clusters.size(), 0);
+  for (int i = 0; i < static_cast<int>(scan.scan.size()); ++i) {
+    if ((has_ground && segments.ground.is_ground[i] != 0) || !belongs(i)) continue;
+    points.push_back(i);
+    if (const int cluster = segments.cluster_of[i]; cluster >= 0) ++count[cluster];
+  }
+  const auto is_whole = [&](int cluster) {
+    return cluster >= 0 &&
+           count[cluster] >= kMostly * static_cast<double>(segments.clusters[cluster].size());
+  };
+  points.erase(std::remove_if(points.begin(), points.end(),
+                              [&](int i) { return is_whole(segments.cluster_of[i]); }),
+               points.end());
+  for (int cluster = 0; cluster < static_cast<int>(count.size()); ++cluster)
+    if (count[cluster] > 0 && is_whole(cluster))
+      points.insert(points.end(), segments.clusters[cluster].begin(),
+                    segments.clusters[cluster].end());
+  return points;
+}
+
+std::vector<int> points_near(const PreparedScan& scan, std::vector<Eigen::Vector3f> places,
+                             const std::function<bool(int)>& may_belong) {
+  Eigen::AlignedBox3f bounds;
+  for (const Eigen::Vector3f& place : places) bounds.extend(place);
+  bounds.min().array() -= kReach_m;
+  bounds.max().array() += kReach_m;
+  const PointIndex index(std::move(places));
+  return with_their_clusters(scan, [&](int i) {
+    const Eigen::Vector3f& point = scan.scan.points[i];
+    return bounds.contains(point) && may_belong(i) &&
+           index.nearest(point, kReach_m * kReach_m).index >= 0;
+  });
+}
+
+void take_up_partly_hidden(PreparedScan& scan, TrackStore& store, std::vector<int>& track_of,
+                           const TrackOptions& options) {
+  std::vector<bool> is_taken(scan.scan.size(), false), is_seen(store.tracks.size(), false);
+  const auto take = [&](const ScanObject& object) {
+    for (const int i : object.points) is_taken[i] = true;
+  };
+  std::for_each(scan.objects.begin(), scan.objects.end(), take);
+  for (const int track : track_of) is_seen[track] = true;
+  for (std::size_t i = 0; i < store.tracks.size(); ++i) {
+    ObjectTrack& track = store.tracks[i];
+    const TrackState now = predicted(track.latest, scan.scan.stamp, options.noise);
+    if (is_seen[i] || !is_predictable(track, now, options)) continue;
+    ObjectTrack here = gone_on(track, now, scan.T_rest_lidar, options);
+    ScanObject object;
+    object.points = points_near(scan, here.points, [&](int point) { return !is_taken[point]; });
+    if (object.points.empty()) continue;
+    object.class_name = track.class_name;
+    object.external_id = track.external_id;
+    object.centroid = mean_of(points_at(scan.scan, object.points));
+    object.length = track.length;
+    take(object);
+    track = std::move(here);
+    scan.objects.push_back(std::move(object));
+    track_of.push_back(static_cast<int>(i));
+  }
+}
+
+}  // namespace lidar_upsampling
