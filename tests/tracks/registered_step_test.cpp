@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "tracks/vehicle_surface.h"
 
 namespace lidar_upsampling {
@@ -31,6 +33,32 @@ TEST(RegisteredStep, finds_a_view_that_shrinks_in_the_larger_one_before) {
   const auto step = measured(vehicle(12, 4), vehicle(12.3F, 0.5F));
   ASSERT_TRUE(step);
   EXPECT_NEAR(step->mean.x(), 0.3, 0.03);
+}
+
+/// A car that crosses from right to left: its front at `y`, and `side` metres of its side.
+std::vector<Eigen::Vector3f> crossing_car(float y, float side) {
+  std::vector<Eigen::Vector3f> points;
+  for (float z = -1.2F; z < 0; z += 0.3F) {
+    for (float depth = 0; depth < 1.2F; depth += 0.2F)
+      points.emplace_back(20 + depth, y - 0.1F * depth * depth, z);
+    for (float along = 0.1F; along < side; along += 0.1F) points.emplace_back(20, y - along, z);
+  }
+  return points;
+}
+
+TEST(RegisteredStep, does_not_turn_a_corner_to_lie_along_a_side) {
+  ObjectScans scans;
+  scans.before = crossing_car(-5, 0);
+  scans.now = crossing_car(-4, 1.8F);
+  scans.T_mov_guess = Eigen::Translation3d(-0.5, 0.7, 0) * Pose::Identity();
+  scans.turn_sigma_rad = 0.03;
+  const auto step = registered_step(scans, Eigen::Matrix3d::Identity());
+  ASSERT_TRUE(step);
+  EXPECT_NEAR(step->mean.y(), 1, 0.1);
+  EXPECT_NEAR(step->mean[2], 0, 0.1);
+  scans.turn_sigma_rad = 0;
+  const auto turned = registered_step(scans, Eigen::Matrix3d::Identity());
+  EXPECT_TRUE(!turned || std::abs(turned->mean[2]) > 0.5) << "what the test is about";
 }
 
 TEST(RegisteredStep, knows_that_no_road_user_jumps_up) {

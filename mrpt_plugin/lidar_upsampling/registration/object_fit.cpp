@@ -59,19 +59,25 @@ void add_match(const ObjectFit& problem, const Eigen::Vector3d& point, const Eig
   b.tail<3>() -= pull;
 }
 
-/// Vehicles stay level with the ground: soft, or sparse rings would tilt them.
+/// Vehicles stay level with the ground, or sparse rings would tilt them, and turn slowly, or what
+/// is seen of a corner would turn to lie along a side: both soft.
 void add_level(const ObjectFit& problem, const Pose& T, Matrix6d& H, Twist& b) {
   const Eigen::AngleAxisd turned(T.linear() * problem.T_level.linear().transpose());
-  const Eigen::Vector3d tilt = turned.angle() * turned.axis();
+  const Eigen::Vector3d turn = turned.angle() * turned.axis();
   const double rise = (T * problem.centroid - problem.T_level * problem.centroid).z();
   const int weigh_as = problem.options.weigh_as;
   const double crowd =
       weigh_as > 0 ? std::max(1., static_cast<double>(problem.points.size()) / weigh_as) : 1;
   const auto weight = [&](double sigma) { return crowd * std::pow(kResidualSigma / sigma, 2); };
+  const double yaw_sigma = problem.options.yaw_sigma_rad;
   const double tilt_weight = weight(problem.options.tilt_sigma_rad);
   for (int axis = 0; axis < 2; ++axis) {
     H(axis, axis) += tilt_weight;
-    b[axis] -= tilt_weight * tilt[axis];
+    b[axis] -= tilt_weight * turn[axis];
+  }
+  if (yaw_sigma > 0) {
+    H(2, 2) += weight(yaw_sigma);
+    b[2] -= weight(yaw_sigma) * turn[2];
   }
   H(5, 5) += weight(problem.options.height_sigma_m);
   b[5] -= weight(problem.options.height_sigma_m) * rise;

@@ -17,6 +17,7 @@ struct ObjectRegistrationOptions {
   double kernel_m = 0.08;         ///< Geman-McClure scale at the end
   double point_weight = 0.05;     ///< of the distance along the surface; 1: point to point
   double tilt_sigma_rad = 0.005;  ///< roll and pitch, against the ego-motion
+  double yaw_sigma_rad = 0;       ///< likewise of the turn; 0: free
   double height_sigma_m = 0.02;   ///< vertical step, against the ego-motion
   double search_m = 3.0;  ///< starts are also sought this far around the ego-motion's; 0: not
   double overlap_distance_m = 0.2;  ///< a point is covered if the target has one this near

@@ -99,7 +99,8 @@ std::optional<PlanarStep> step_of(const ObjectRegistration& registration, const 
 
 std::optional<PlanarStep> registered_step(const ObjectScans& scans,
                                           const Eigen::Matrix3d& R_rest_lidar_k) {
-  const ObjectRegistrationOptions options = options_between_scans(120, 15, 0);
+  ObjectRegistrationOptions options = options_between_scans(120, 15, 0);
+  options.yaw_sigma_rad = scans.turn_sigma_rad;
   if (!can_be_registered(scans, options)) return {};
   const Pose& T_ego = scans.T_lidar_k_lidar_before;
   std::vector<Pose> guesses{T_ego, T_ego * scans.T_mov_guess};

@@ -17,6 +17,7 @@ struct ObjectScans {
   std::vector<Eigen::Vector3f> now;                ///< lidar frame at k
   Pose T_lidar_k_lidar_before = Pose::Identity();  ///< ego-motion
   Pose T_mov_guess = Pose::Identity();     ///< over ground, in the lidar frame at the scan before
+  double turn_sigma_rad = 0;               ///< over ground; 0: any turn is as likely
   const SeenSpace* seen_before = nullptr;  ///< free space of either scan: what is hidden from it
   const SeenSpace* seen_now = nullptr;     ///< needs no counterpart there; null: not known
 };

@@ -25,7 +25,7 @@ struct TwoSights {
 };
 
 TwoSights two_sights(const ObjectTrack& track, const ScanObject& object, const TrackedScan& scan,
-                     const TrackState& expected) {
+                     const TrackState& expected, const TrackOptions& options) {
   TwoSights sights;
   sights.dt = seconds_between(track.stamp, expected.stamp);
   sights.axes_before = level_axes(track.T_rest_lidar.linear());
@@ -37,6 +37,7 @@ TwoSights two_sights(const ObjectTrack& track, const ScanObject& object, const T
   sights.scans = {track.points, points_at(scan.scan, object.points),
                   scan.T_rest_lidar.inverse() * track.T_rest_lidar,
                   motion_pose(motion, track.T_rest_lidar.inverse() * track.centroid_rest)};
+  sights.scans.turn_sigma_rad = options.noise.unknown_yaw_rate_sigma * sights.dt;
   const double between = seconds_between(scan.stamp_before, scan.scan.stamp);
   if (scan.seen_before != nullptr && std::abs(sights.dt - between) < 0.5 * sights.dt) {
     sights.scans.seen_before = scan.seen_before;
@@ -158,7 +159,7 @@ class StepLikelihoods {
 PlanarStep measured_step(const ObjectTrack& track, const ScanObject& object,
                          const TrackedScan& scan, const TrackState& expected,
                          const TrackOptions& options) {
-  const TwoSights sights = two_sights(track, object, scan, expected);
+  const TwoSights sights = two_sights(track, object, scan, expected, options);
   const auto registered = registered_step(sights.scans, scan.T_rest_lidar.linear());
   PlanarStep step = registered ? *registered : centroid_step(track, object, scan, options);
   join_ends(track, sights, scan, object.length - track.length, step);
