@@ -46,11 +46,13 @@ TwoSights two_sights(const ObjectTrack& track, const ScanObject& object, const T
   return sights;
 }
 
-/// Where nothing can be registered, the centroid tells.
+/// Where nothing can be registered, the centroid tells; where one of the scans shows more of the
+/// object, that may be at either end.
 PlanarStep centroid_step(const ObjectTrack& track, const ScanObject& object,
                          const TrackedScan& scan, const TrackOptions& options) {
   constexpr double kLeast_m = 0.1, kTurn = 1;  // m, as for association; rad: it does not tell
-  const double sigma = kLeast_m + options.extent_error * object.length;
+  const double sigma = std::hypot(kLeast_m + options.extent_error * object.length,
+                                  0.5 * (object.length - track.length));
   PlanarStep step;
   step.mean.head<2>() = (scan.T_rest_lidar * object.centroid - track.centroid_rest).head<2>();
   step.covariance.diagonal() << sigma * sigma, sigma * sigma, kTurn * kTurn;
