@@ -109,11 +109,10 @@ void LidarUpsampler::step_between_scans(const PreparedScan& before, PreparedScan
   now.T_scan_before = given ? given->T_to_from : exp_se3(Twist(before.motion.rate * dt));
   if (given && !ego_motion_.fuses()) return;
   const Stopwatch watch(timing_, "scan registration");
-  auto registration = register_scans(standing_points(before), now.scan.points, now.T_scan_before,
-                                     config_.scan_registration);
-  if (!registration && !given)  // better than nothing
-    registration = register_scans(before.scan.points, now.scan.points, now.T_scan_before,
-                                  config_.scan_registration);
+  // Without poses all that stands out is needed: the most of it is parked.
+  const auto registration =
+      register_scans(given ? standing_points(before) : before.scan.points, now.scan.points,
+                     now.T_scan_before, config_.scan_registration);
   if (!registration) return;
   EgoStep step = step_of(*registration);
   if (given) {
