@@ -173,7 +173,7 @@ TEST_P(DepthCameras, get_the_depth_images_they_would_have_taken) {
     const DepthAgreement found = agreement(made, depth_image(*truth));
     EXPECT_GT(found.num_true, 5000);
     EXPECT_GT(found.num_both, 0.9 * found.num_true);
-    EXPECT_GT(found.num_close, 0.93 * found.num_both);  // a copy: 0.66 to 0.91
+    EXPECT_GT(found.num_close, 0.92 * found.num_both);  // a copy: 0.66 to 0.91
   }
 }
 
