@@ -122,7 +122,7 @@ double rank_of(const ObjectFit& fit, const Pose& T_target_object, double score) 
   return std::sqrt(score * score + kSqScorePerChiSquare * chi_square);
 }
 
-double residual_of(const ObjectFit& fit, const Pose& T_target_object) {
+SurfaceResidual residual_of(const ObjectFit& fit, const Pose& T_target_object) {
   double sum = 0;
   int count = 0;
   for (const auto& point : fit.points) {
@@ -135,7 +135,7 @@ double residual_of(const ObjectFit& fit, const Pose& T_target_object) {
     sum += std::min(sq, kScoreCut * kScoreCut);
     ++count;
   }
-  return std::sqrt(sum / std::max(1, count));
+  return {std::sqrt(sum / std::max(1, count)), count};
 }
 
 Sampling sampling_under(const ObjectFit& fit, const Pose& T_target_object) {

@@ -36,8 +36,13 @@ constexpr double kScoreCut = 0.5;
 /// @brief The score, with what an unexpected place adds, m.
 [[nodiscard]] double rank_of(const ObjectFit& fit, const Pose& T_target_object, double score);
 
-/// @brief Root mean squared distance of the visible points across the target's surface, m.
-[[nodiscard]] double residual_of(const ObjectFit& fit, const Pose& T_target_object);
+/// What is left between an object and its target.
+struct SurfaceResidual {
+  double rms_m = 0;    ///< of the visible points' distances across the target's surface
+  int num_points = 0;  ///< visible ones
+};
+
+[[nodiscard]] SurfaceResidual residual_of(const ObjectFit& fit, const Pose& T_target_object);
 
 /// How the target's points lie under an object.
 struct Sampling {

@@ -153,7 +153,9 @@ ObjectRegistration register_object(const Points& points_object, const Surface& t
     result.status = RegistrationStatus::poor_overlap;
     return result;
   }
-  result.residual_m = residual_of(problem, best.T);
+  const SurfaceResidual residual = residual_of(problem, best.T);
+  result.residual_m = residual.rms_m;
+  result.num_points = residual.num_points;
   const Ambiguity ambiguity = ambiguity_of(problem, best);
   result.spread_m = ambiguity.spread_m;
   result.slack = ambiguity.slack;

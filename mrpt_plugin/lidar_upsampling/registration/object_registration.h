@@ -58,6 +58,7 @@ struct ObjectRegistration {
   Pose T_target_object = Pose::Identity();
   double overlap = 0;     ///< share of the object's points that are covered
   double residual_m = 0;  ///< root mean squared distance to the target across its surface
+  int num_points = 0;     ///< of the object, in the target's sight
   double spread_m = 0;    ///< how far the centroid goes astray from shifted starts that fit as well
   Eigen::Matrix2d slack =
       Eigen::Matrix2d::Zero();  ///< m^2, level covariance told by these starts:

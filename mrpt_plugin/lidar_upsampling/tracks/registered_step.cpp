@@ -72,9 +72,9 @@ ObjectRegistration register_views(const ObjectScans& scans, const std::vector<Po
 
 std::optional<PlanarStep> step_of(const ObjectRegistration& registration, const ObjectScans& scans,
                                   const Eigen::Matrix3d& R_rest_lidar_k) {
-  constexpr double kMaxRise_m = 0.1;  // between two scans: road users stay on the road
-  constexpr double kYaw = 0.05;       // rad: 10 cm at the ends of a car
-  constexpr double kRegistrationSigma_m = 0.015;
+  constexpr double kMaxRise_m = 0.1;   // between two scans: road users stay on the road
+  constexpr double kYaw = 0.05;        // rad: 10 cm at the ends of a car
+  constexpr double kFinest_m = 0.005;  // straightening of the scans, edges between beams
   if (registration.status != RegistrationStatus::reliable &&
       registration.status != RegistrationStatus::ambiguous)
     return {};
@@ -83,8 +83,9 @@ std::optional<PlanarStep> step_of(const ObjectRegistration& registration, const 
   const Eigen::Vector3d centroid = mean_of(scans.now);
   const Eigen::Vector3d moved = centroid - T_mov_k.inverse() * centroid;
   if (std::abs(moved.z()) > kMaxRise_m) return {};
-  // Few points lock into the gaps between rings: where matches lie far apart, so do the answers.
-  const double sigma = std::hypot(kRegistrationSigma_m, 0.5 * registration.residual_m);
+  const double sigma =
+      std::hypot(kFinest_m, registration.residual_m *
+                                std::sqrt(scans.points_per_observation / registration.num_points));
   const Eigen::Matrix2d turn = R_rest_lidar_k.topLeftCorner<2, 2>();
   PlanarStep step;
   step.mean << (R_rest_lidar_k * moved).head<2>(),

@@ -18,6 +18,7 @@ struct ObjectScans {
   Pose T_lidar_k_lidar_before = Pose::Identity();  ///< ego-motion
   Pose T_mov_guess = Pose::Identity();     ///< over ground, in the lidar frame at the scan before
   double turn_sigma_rad = 0;               ///< over ground; 0: any turn is as likely
+  double points_per_observation = 4;       ///< neighbouring points err alike: so many count as one
   const SeenSpace* seen_before = nullptr;  ///< free space of either scan: what is hidden from it
   const SeenSpace* seen_now = nullptr;     ///< needs no counterpart there; null: not known
 };

@@ -38,6 +38,7 @@ TwoSights two_sights(const ObjectTrack& track, const ScanObject& object, const T
                   scan.T_rest_lidar.inverse() * track.T_rest_lidar,
                   motion_pose(motion, track.T_rest_lidar.inverse() * track.centroid_rest)};
   sights.scans.turn_sigma_rad = options.noise.unknown_yaw_rate_sigma * sights.dt;
+  sights.scans.points_per_observation = options.points.points_per_observation;
   const double between = seconds_between(scan.stamp_before, scan.scan.stamp);
   if (scan.seen_before != nullptr && std::abs(sights.dt - between) < 0.5 * sights.dt) {
     sights.scans.seen_before = scan.seen_before;
