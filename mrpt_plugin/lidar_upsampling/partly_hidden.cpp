@@ -12,15 +12,7 @@
 namespace lidar_upsampling {
 namespace {
 
-constexpr float kReach_m = 0.3F;  // of an object's points, from where they will be
-constexpr double kMostly = 0.3;   // share of a cluster that speaks for all of it
-
-/// Whether it moves, and it is known where it is.
-bool is_predictable(const ObjectTrack& track, const TrackState& now, const TrackOptions& options) {
-  const double log_odds = track.latest_log_odds;
-  return log_odds > std::log(options.loss_ratio) &&
-         now.covariance.topLeftCorner<2, 2>().trace() < 2 * kReach_m * kReach_m;
-}
+constexpr double kMostly = 0.3;  // share of a cluster that speaks for all of it
 
 }  // namespace
 
@@ -74,16 +66,16 @@ void take_up_partly_hidden(PreparedScan& scan, TrackStore& store, std::vector<in
     ObjectTrack& track = store.tracks[i];
     const TrackState now = predicted(track.latest, scan.scan.stamp, options.noise);
     if (is_seen[i] || !is_predictable(track, now, options)) continue;
-    ObjectTrack here = gone_on(track, now, scan.T_rest_lidar, options);
     ScanObject object;
-    object.points = points_near(scan, here.points, [&](int point) { return !is_taken[point]; });
+    object.points = points_near(scan, points_by(track, now, scan.T_rest_lidar),
+                                [&](int point) { return !is_taken[point]; });
     if (object.points.empty()) continue;
     object.class_name = track.class_name;
     object.external_id = track.external_id;
     object.centroid = mean_of(points_at(scan.scan, object.points));
     object.length = track.length;
     take(object);
-    track = std::move(here);
+    go_on(track, now, scan.T_rest_lidar, options);
     scan.objects.push_back(std::move(object));
     track_of.push_back(static_cast<int>(i));
   }

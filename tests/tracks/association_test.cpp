@@ -22,7 +22,7 @@ ScanObject car_at(double x, double y) {
 /// Scans of a vehicle at rest that show these objects; nothing can be registered.
 class Street {
  public:
-  std::vector<int> show(double time_s, const std::vector<ScanObject>& objects) {
+  std::vector<int> show(double time_s, std::vector<ScanObject> objects) {
     scan_.stamp = shifted(kStart, time_s);
     scan_.points.assign(100, Eigen::Vector3f(10, 0, 0));
     return take_up_scan(store_, objects,

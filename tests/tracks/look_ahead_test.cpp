@@ -37,7 +37,8 @@ struct SightsOfOne {
   /// The car's track at the first scan, with `num_ahead` scans to come.
   [[nodiscard]] ObjectTrack track_of_first(std::size_t num_ahead) const {
     TrackStore store;
-    take_up_scan(store, objects[0], scan(0), {});
+    std::vector<ScanObject> first = objects[0];
+    take_up_scan(store, first, scan(0), {});
     std::vector<ScanToCome> to_come;
     for (std::size_t i = 1; i <= num_ahead; ++i) to_come.push_back({objects[i], scan(i)});
     look_ahead(store, to_come, {});

@@ -31,7 +31,7 @@ struct BusScan {
       objects.push_back(piece);
     }
   }
-  std::vector<int> take_up(TrackStore& store) const {
+  std::vector<int> take_up(TrackStore& store) {
     return take_up_scan(store, objects, {scan, T_rest_lidar, step_covariance, seen, nullptr, {}},
                         {});
   }
@@ -47,7 +47,7 @@ struct BusScan {
 ObjectTrack second_piece_of_bus(double speed_m_s) {
   TrackStore store;
   for (int i = 0; i < 4; ++i) BusScan(0.1 * i, {{20 + 0.1 * i * speed_m_s, 2.}}).take_up(store);
-  const BusScan broken(0.4, {{20 + 0.4 * speed_m_s, 2.}, {22.5 + 0.4 * speed_m_s, 4.}});
+  BusScan broken(0.4, {{20 + 0.4 * speed_m_s, 2.}, {22.5 + 0.4 * speed_m_s, 4.}});
   return store.tracks[broken.take_up(store)[1]];
 }
 
@@ -56,6 +56,29 @@ TEST(Pieces, of_what_moves_move_as_the_whole_does) {
   EXPECT_EQ(piece.id, 1);
   EXPECT_GT(piece.log_odds, 1);
   EXPECT_NEAR(piece.expected_at(shifted(kStart, 0.5), {}).mean[0], 1, 0.1);
+}
+
+/// What a scan shows of a bus of 6 m in two pieces that was seen whole for some scans.
+BusScan broken_bus(double speed_m_s, double second_at_m) {
+  TrackStore store;
+  for (int i = 0; i < 4; ++i) BusScan(0.1 * i, {{20 + 0.1 * i * speed_m_s, 6.}}).take_up(store);
+  const double x = 20 + 0.4 * speed_m_s;
+  BusScan broken(0.4, {{x, 4.}, {x + second_at_m, 1.}});
+  broken.take_up(store);
+  return broken;
+}
+
+TEST(Pieces, that_lie_where_a_mover_was_predicted_are_that_mover) {
+  const BusScan broken = broken_bus(10, 4.6);
+  ASSERT_EQ(broken.objects.size(), 1U);
+  EXPECT_EQ(broken.objects[0].points.size(), broken.scan.points.size());
+  EXPECT_NEAR(broken.objects[0].centroid.x(), mean_of(broken.scan.points).x(), 1e-4);
+  EXPECT_NEAR(broken.objects[0].length, 5.6, 0.1);
+}
+
+TEST(Pieces, that_lie_elsewhere_stay_objects_of_their_own) {
+  EXPECT_EQ(broken_bus(10, 7).objects.size(), 2U);
+  EXPECT_EQ(broken_bus(0, 4.6).objects.size(), 2U) << "beside something parked";
 }
 
 TEST(Pieces, may_be_something_else) {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 #include <string>
 #include <utility>
 
@@ -19,6 +20,32 @@ std::vector<const ObjectMotion*> moving_objects(const VirtualScan& scan) {
   for (const ObjectMotion& object : scan.objects)
     if (object.status == MotionStatus::moving) moving.push_back(&object);
   return moving;
+}
+
+Stamp street_begin() { return sim::stamps_of(10, 0, 0.01).front(); }
+
+/// The world object that moves so fast along the street.
+int car_at_velocity(const StreetRun& street, double v) {
+  constexpr double kWithin = 0.5;
+  for (int i = 0; i < static_cast<int>(street.world.objects.size()); ++i) {
+    if (!street.world.objects[i].moves()) continue;
+    const Eigen::Vector3d then = street.world.T_world_object(i, 0.1).translation();
+    const double here = (then - street.world.T_world_object(i, 0).translation()).x() / 0.1;
+    if (std::abs(here - v) < kWithin) return i;
+  }
+  return -1;
+}
+
+/// What is told of the object that most of a world object's points belong to; null: nothing.
+const ObjectMotion* motion_of(const StreetRun& street, const VirtualScan& scan, int object) {
+  const std::vector<int> owner = street.scan_at(scan.key_stamp).object;
+  const auto told =
+      std::find_if(scan.objects.begin(), scan.objects.end(), [&](const ObjectMotion& motion) {
+        const auto own = std::count_if(motion.points.begin(), motion.points.end(),
+                                       [&](int i) { return owner[i] == object; });
+        return own > 0.5 * static_cast<double>(std::count(owner.begin(), owner.end(), object));
+      });
+  return told == scan.objects.end() ? nullptr : &*told;
 }
 
 void expect_close_to_truth(const StreetRun& street, const std::vector<VirtualScan>& scans,
@@ -129,7 +156,7 @@ TEST(LidarUpsampler, in_a_hurry_objects_go_on_as_they_were_seen_to_move) {
   StreetRun street;
   LidarUpsampler upsampler{moving_points()};
   constexpr double kLastImages_s = 0.4;
-  street.hurried_from = shifted(sim::stamps_of(10, 0, 0.01).front(), kLastImages_s + 0.001);
+  street.hurried_from = shifted(street_begin(), kLastImages_s + 0.001);
   const auto scans = street.run(upsampler);
   ASSERT_EQ(scans.size(), 10U);
   EXPECT_TRUE(moving_objects(scans.back()).empty());
@@ -206,6 +233,30 @@ TEST(LidarUpsampler, two_cameras_make_one_virtual_scan_per_instant) {
     if (object->camera_label == "REAR" && std::abs(object->velocity_lidar_k.x() - 12) < 1.5)
       seen_behind = true;
   EXPECT_TRUE(seen_behind);
+}
+
+TEST(LidarUpsampler, a_car_stays_one_track_and_in_place_from_one_camera_to_the_next) {
+  StreetRun street(
+      "[camera.LEFT]\nwidth = 828\nheight = 250\nfx = 480\nrate_hz = 30\norientation_deg = 80 0 "
+      "0\n"
+      "[vehicle.passing]\nx_m = 14\ny_m = 2.6\nyaw_deg = 180\nspeed_mps = 11\n");
+  LidarUpsampler upsampler{moving_points()};
+  upsampler.expect_cameras({"CAM0", "LEFT"});
+  const int car = car_at_velocity(street, -11);
+  std::set<std::string> cameras;
+  std::set<int> tracks;
+  for (const VirtualScan& scan : street.run(upsampler)) {
+    if (scan.key_stamp < shifted(street_begin(), 0.15)) continue;  // two scans show how it moves
+    const ObjectMotion* told = motion_of(street, scan, car);
+    ASSERT_NE(told, nullptr);
+    cameras.insert(told->camera_label);
+    tracks.insert(told->track_id);
+    const Pose truth = street.true_motion(car, scan.key_stamp, scan.scan.stamp);
+    const Eigen::Vector3d& centroid = told->centroid_lidar_k;
+    EXPECT_LT((told->T_lidar_t_lidar_k * centroid - truth * centroid).norm(), 0.05);
+  }
+  EXPECT_EQ(cameras, (std::set<std::string>{"CAM0", "LEFT"}));
+  EXPECT_EQ(tracks.size(), 1U);
 }
 
 TEST(LidarUpsampler, each_beam_measures_what_the_sensor_would_have_measured) {

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "lidar_upsampling/robust/assignment.h"
+#include "lidar_upsampling/tracks/log_odds.h"
 #include "lidar_upsampling/tracks/object_tracks.h"
 
 namespace lidar_upsampling {
@@ -26,7 +27,7 @@ double log_ratio(const ObjectTrack& track, const ScanObject& object, const Track
   const Eigen::Matrix2d parked =
       shift * shift * Eigen::Matrix2d::Identity() + ego_error(scan, object.centroid);
   const Eigen::Vector3d step = scan.T_rest_lidar * object.centroid - track.centroid_rest;
-  const double is_moving = 1 / (1 + std::exp(-track.latest_log_odds));
+  const double is_moving = probability_of(track.latest_log_odds);
   double if_moving = 0;
   for (const Course& course : courses_of(track, options)) {
     const TrackState now = predicted(course.from, instant, options.noise);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lidar_upsampling/tracks/log_odds.h"
 #include "lidar_upsampling/tracks/scan_factor.h"
 #include "lidar_upsampling/units.h"
 
@@ -138,7 +139,7 @@ double log_sum(const std::vector<double>& logs) {
 double log_odds_of_wrong(int num_agree, int num_followed, const TrackOptions& options) {
   const double share = 1 / options.points.points_per_observation;
   const double agree = share * num_agree, lost = share * std::max(0, num_followed - num_agree);
-  return std::log(options.outlier_share / (1 - options.outlier_share)) +
+  return log_odds_of(options.outlier_share) +
          std::log((lost + 1) * (lost + 2) / ((agree + 1) * (agree + 2)));
 }
 

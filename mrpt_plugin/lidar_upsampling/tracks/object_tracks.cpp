@@ -6,9 +6,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 
+#include "lidar_upsampling/tracks/log_odds.h"
+#include "lidar_upsampling/tracks/pieces.h"
 #include "lidar_upsampling/tracks/scan_factor.h"
 
 namespace lidar_upsampling {
@@ -52,39 +53,6 @@ void see_anew(ObjectTrack& track, const ScanObject& object, const TrackedScan& s
   track.size = static_cast<double>(object.points.size()) * object.centroid.squaredNorm();
 }
 
-/// Between an object and where a track's points are by now if it moves, m; infinite where that is
-/// far.
-double gap_between(const ScanObject& object, const ObjectTrack& track, const TrackedScan& scan,
-                   const TrackOptions& options) {
-  constexpr double kFar_m = 3;  // four sigmas of the gap: saves work, tells nothing else
-  const TrackState now = predicted(track.latest, scan.scan.stamp, options.noise);
-  const Eigen::Translation3d step(now.mean[0], now.mean[1], 0);
-  const Pose T_lidar_rest = scan.T_rest_lidar.inverse() * step;
-  double sq_gap = std::numeric_limits<double>::infinity();
-  if ((T_lidar_rest * track.centroid_rest - object.centroid).norm() >
-      object.length + track.length + kFar_m)
-    return sq_gap;
-  const Eigen::Isometry3f T_lidar_track = (T_lidar_rest * track.T_rest_lidar).cast<float>();
-  for (const Eigen::Vector3f& point : track.points) {
-    const Eigen::Vector3f there = T_lidar_track * point;
-    for (const int i : object.points)
-      sq_gap = std::min<double>(sq_gap, (scan.scan.points[i] - there).head<2>().squaredNorm());
-  }
-  return std::sqrt(sq_gap);
-}
-
-/// Density (1/m^2) of the object as a piece of what moves.
-double piece_density(const ScanObject& object, const ObjectTrack& track, const TrackedScan& scan,
-                     const TrackOptions& options) {
-  constexpr double kGap_m = 0.7;  // between pieces
-  constexpr double kCar_m = 4;    // as long is any, at least, whatever is seen of it
-  if (track.external_id >= 0 && object.external_id >= 0) return 0;  // the detector parts them
-  const double gap = gap_between(object, track, scan, options);
-  const double length = std::max({kCar_m, track.length, object.length});
-  return options.piece_share / (1 + std::exp(-track.log_odds)) *
-         std::exp(-0.5 * std::pow(gap / kGap_m, 2)) / (length * length);
-}
-
 /// A new object, which may be a piece of one that moves and then moves as that does; else, if it
 /// moves, it goes anywhere, or our road. What is beside something parked may come out from behind
 /// it.
@@ -93,25 +61,16 @@ ObjectTrack new_track(const ScanObject& object, const TrackedScan& scan,
                       const TrackOptions& options) {
   constexpr double kWorthAFit = 1e-3;  // of probability: each way costs a fit per image
   const TrackState any = new_track_state(shifted(scan.scan.stamp, object.time_s), options.noise);
-  double most = 0;
-  TrackState as_whole = any;
-  for (std::size_t i = 0; i < num_known; ++i) {
-    const double here = piece_density(object, tracks[i], scan, options);
-    if (here <= most) continue;
-    most = here;
-    as_whole = from_here(predicted(tracks[i].state, any.stamp, options.noise));
-    as_whole.stamp = any.stamp;
-  }
-  const double is_piece = most / (most + options.birth_density);
-  const double moves = is_piece + (1 - is_piece) * options.moving_prior;
+  const Whole whole = whole_of(object, scan, tracks, num_known, options);
+  const double moves = whole.probability + (1 - whole.probability) * options.moving_prior;
   ObjectTrack track;
-  const double along = is_piece / moves, alone = (1 - along) / 2;
+  const double along = whole.probability / moves, alone = (1 - along) / 2;
   track.beginnings = {{any, alone}, {along_road(any, heading_of(scan), options.noise), alone}};
   if (along > kWorthAFit)
     track.beginnings.insert(along > alone ? track.beginnings.begin() : track.beginnings.end(),
-                            {as_whole, along});
+                            {whole.state, along});
   track.state = track.beginnings.front().from;
-  track.log_odds = std::log(moves / (1 - moves));
+  track.log_odds = log_odds_of(moves);
   see_anew(track, object, scan);
   return track;
 }
@@ -130,7 +89,7 @@ Eigen::Matrix2d ego_error(const TrackedScan& scan, const Eigen::Vector3d& place)
   return R * error.topLeftCorner<2, 2>() * R.transpose();
 }
 
-std::vector<int> take_up_scan(TrackStore& store, const std::vector<ScanObject>& objects,
+std::vector<int> take_up_scan(TrackStore& store, std::vector<ScanObject>& objects,
                               const TrackedScan& scan, const TrackOptions& options) {
   auto& tracks = store.tracks;
   const auto lost = [&](const ObjectTrack& track) {
@@ -138,6 +97,7 @@ std::vector<int> take_up_scan(TrackStore& store, const std::vector<ScanObject>& 
   };
   tracks.erase(std::remove_if(tracks.begin(), tracks.end(), lost), tracks.end());
   std::vector<int> track_of = associate(tracks, objects, scan, options);
+  join_pieces(store, scan, options, objects, track_of);
   const std::size_t num_known = tracks.size();
   tbb::parallel_for(std::size_t{0}, objects.size(), [&](std::size_t i) {
     if (track_of[i] < 0) return;
@@ -159,14 +119,27 @@ std::vector<int> take_up_scan(TrackStore& store, const std::vector<ScanObject>& 
   return track_of;
 }
 
-ObjectTrack gone_on(ObjectTrack track, TrackState now, const Pose& T_rest_lidar,
-                    const TrackOptions& options) {
+bool is_predictable(const ObjectTrack& track, const TrackState& now, const TrackOptions& options) {
+  return track.latest_log_odds > std::log(options.loss_ratio) &&
+         now.covariance.topLeftCorner<2, 2>().trace() < 2 * kReach_m * kReach_m;
+}
+
+std::vector<Eigen::Vector3f> points_by(const ObjectTrack& track, const TrackState& now,
+                                       const Pose& T_rest_lidar) {
   Twist motion = Twist::Zero();
   motion[2] = now.mean[2];
   motion.segment<2>(3) = now.mean.head<2>();
   const Pose T_rest_then = motion_pose(motion, track.centroid_rest) * track.T_rest_lidar;
   const Eigen::Isometry3f T_lidar_then = (T_rest_lidar.inverse() * T_rest_then).cast<float>();
-  for (Eigen::Vector3f& point : track.points) point = T_lidar_then * point;
+  std::vector<Eigen::Vector3f> points;
+  points.reserve(track.points.size());
+  for (const Eigen::Vector3f& point : track.points) points.emplace_back(T_lidar_then * point);
+  return points;
+}
+
+void go_on(ObjectTrack& track, TrackState now, const Pose& T_rest_lidar,
+           const TrackOptions& options) {
+  track.points = points_by(track, now, T_rest_lidar);
   track.centroid_rest.head<2>() += now.mean.head<2>();
   track.T_rest_lidar = T_rest_lidar;
   track.log_odds = decayed(track.latest_log_odds, seconds_between(track.stamp, now.stamp), options);
@@ -177,7 +150,6 @@ ObjectTrack gone_on(ObjectTrack track, TrackState now, const Pose& T_rest_lidar,
   track.beginnings.clear();
   track.passage.reset();
   track.ahead.reset();
-  return track;
 }
 
 std::vector<Course> courses_of(const ObjectTrack& track, const TrackOptions& options) {
@@ -206,7 +178,8 @@ void look_ahead(TrackStore& store, const std::vector<ScanToCome>& to_come,
   std::map<int, std::vector<Passage>> passages;  // by track id
   std::map<int, double> log_odds;
   for (const ScanToCome& next : to_come) {
-    for (const int i : take_up_scan(later, next.objects, next.scan, options)) {
+    std::vector<ScanObject> objects = next.objects;
+    for (const int i : take_up_scan(later, objects, next.scan, options)) {
       const ObjectTrack& track = later.tracks[i];
       if (track.passage) passages[track.id].push_back(*track.passage);
       log_odds[track.id] = track.log_odds;

@@ -119,14 +119,27 @@ constexpr double kMostLogOdds = 8;
 
 /// @brief Joins a scan's objects to the tracks, measures how they have moved since their last
 /// sight, and forgets tracks of which nothing is known any more.
+/// @param objects in and out: pieces of one mover become one.
 /// @return the track of each object, a position in `store.tracks`.
-std::vector<int> take_up_scan(TrackStore& store, const std::vector<ScanObject>& objects,
+std::vector<int> take_up_scan(TrackStore& store, std::vector<ScanObject>& objects,
                               const TrackedScan& scan, const TrackOptions& options);
 
-/// @brief The track as it must be by now; all that was seen of it comes along.
+/// How far an object's points lie from where they are predicted, m: another scan meets others.
+constexpr float kReach_m = 0.3F;
+
+/// @brief Whether it moves, and is known to lie within reach of a place.
 /// @param now its state as predicted.
-[[nodiscard]] ObjectTrack gone_on(ObjectTrack track, TrackState now, const Pose& T_rest_lidar,
+[[nodiscard]] bool is_predictable(const ObjectTrack& track, const TrackState& now,
                                   const TrackOptions& options);
+
+/// @brief Where its points are predicted, in another lidar frame.
+[[nodiscard]] std::vector<Eigen::Vector3f> points_by(const ObjectTrack& track,
+                                                     const TrackState& now,
+                                                     const Pose& T_rest_lidar);
+
+/// @brief It is as predicted by now; all that was seen of it comes along.
+void go_on(ObjectTrack& track, TrackState now, const Pose& T_rest_lidar,
+           const TrackOptions& options);
 
 /// A scan to come, with its objects.
 struct ScanToCome {

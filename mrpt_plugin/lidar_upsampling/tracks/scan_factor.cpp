@@ -12,6 +12,7 @@
 
 #include "lidar_upsampling/registration/surface.h"
 #include "lidar_upsampling/tracks/free_space.h"
+#include "lidar_upsampling/tracks/log_odds.h"
 #include "lidar_upsampling/tracks/registered_step.h"
 
 namespace lidar_upsampling {
@@ -208,9 +209,7 @@ bool judge_step(const ObjectTrack& track, const PlanarStep& step, double locked,
 
 }  // namespace
 
-double prior_log_odds(const TrackOptions& options) {
-  return std::log(options.moving_prior / (1 - options.moving_prior));
-}
+double prior_log_odds(const TrackOptions& options) { return log_odds_of(options.moving_prior); }
 
 double decayed(double log_odds, double dt, const TrackOptions& options) {
   const double prior = prior_log_odds(options);
