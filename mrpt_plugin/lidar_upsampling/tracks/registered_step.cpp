@@ -70,11 +70,19 @@ ObjectRegistration register_views(const ObjectScans& scans, const std::vector<Po
                          {nullptr, scans.seen_now, scans.seen_before});
 }
 
+/// How well a registration tells a step. What scatters about surfaces averages out; what lies off
+/// them (leaves, gaps between sparse rings) draws all points one way.
+double sigma_m(double residual_m, double num_observations) {
+  constexpr double kFinest_m = 0.005;  // straightening of the scans, edges between beams
+  constexpr double kGood_m = 0.03;     // left between good matches by the sensors' own noise
+  const double off = std::sqrt(std::max(0., residual_m * residual_m - kGood_m * kGood_m));
+  return std::hypot(kFinest_m, residual_m / std::sqrt(num_observations), 0.5 * off);
+}
+
 std::optional<PlanarStep> step_of(const ObjectRegistration& registration, const ObjectScans& scans,
                                   const Eigen::Matrix3d& R_rest_lidar_k) {
-  constexpr double kMaxRise_m = 0.1;   // between two scans: road users stay on the road
-  constexpr double kYaw = 0.05;        // rad: 10 cm at the ends of a car
-  constexpr double kFinest_m = 0.005;  // straightening of the scans, edges between beams
+  constexpr double kMaxRise_m = 0.1;  // between two scans: road users stay on the road
+  constexpr double kYaw = 0.05;       // rad: 10 cm at the ends of a car
   if (registration.status != RegistrationStatus::reliable &&
       registration.status != RegistrationStatus::ambiguous)
     return {};
@@ -84,8 +92,7 @@ std::optional<PlanarStep> step_of(const ObjectRegistration& registration, const 
   const Eigen::Vector3d moved = centroid - T_mov_k.inverse() * centroid;
   if (std::abs(moved.z()) > kMaxRise_m) return {};
   const double sigma =
-      std::hypot(kFinest_m, registration.residual_m *
-                                std::sqrt(scans.points_per_observation / registration.num_points));
+      sigma_m(registration.residual_m, registration.num_points / scans.points_per_observation);
   const Eigen::Matrix2d turn = R_rest_lidar_k.topLeftCorner<2, 2>();
   PlanarStep step;
   step.mean << (R_rest_lidar_k * moved).head<2>(),
