@@ -25,171 +25,95 @@ std::string joined(const std::vector<std::string>& words, const char* separator)
   return text;
 }
 
-std::string to_text(double value) {
+template <typename Number>
+std::string to_text(Number value) {
   std::ostringstream text;
   text << value;
   return text.str();
 }
 
-class Loader : public SettingVisitor {
- public:
-  Loader(const CConfigFileBase& source, std::string main_section)
-      : source_(source), main_section_(std::move(main_section)) {}
+std::string to_text(bool value) { return value ? "true" : "false"; }
 
-  void section(const std::string& name, const std::string&) override {
-    reject_unknown_keys();
-    section_ = name.empty() ? main_section_ : name;
-    known_.clear();
-  }
+std::string to_text(const std::string& value) { return value; }
 
-  void number(const char* key, double& value, Range range, const char*) override {
-    const auto text = read(key);
-    if (!text) return;
-    const auto read_value = number_in(*text);
-    if (!read_value) fail(key, *text, "a number is expected");
-    check(key, *text, *read_value, range);
-    value = *read_value;
-  }
+std::string to_text(const std::vector<std::string>& words) { return joined(words, ","); }
 
-  void integer(const char* key, int& value, Range range, const char* comment) override {
-    double number_read = value;
-    number(key, number_read, range, comment);
-    if (number_read != std::floor(number_read))
-      fail(key, to_text(number_read), "a whole number is expected");
-    value = static_cast<int>(number_read);
-    if (range.odd && value % 2 == 0) fail(key, std::to_string(value), "an odd number is expected");
-  }
+double number_from(const std::string& text, const Range& range) {
+  const auto value = number_in(text);
+  if (!value) throw std::invalid_argument("a number is expected");
+  if (*value < range.min || *value > range.max)
+    throw std::invalid_argument("it must lie between " + to_text(range.min) + " and " +
+                                to_text(range.max));
+  return *value;
+}
 
-  void flag(const char* key, bool& value, const char*) override {
-    const auto text = read(key);
-    if (!text) return;
-    if (*text == "1" || *text == "true" || *text == "yes" || *text == "on")
-      value = true;
-    else if (*text == "0" || *text == "false" || *text == "no" || *text == "off")
-      value = false;
-    else
-      fail(key, *text, "true or false is expected");
-  }
+int integer_from(const std::string& text, const Range& range) {
+  const double value = number_from(text, range);
+  if (value != std::floor(value)) throw std::invalid_argument("a whole number is expected");
+  if (range.odd && std::fmod(value, 2) == 0)
+    throw std::invalid_argument("an odd number is expected");
+  return static_cast<int>(value);
+}
 
-  void text(const char* key, std::string& value, const char*) override {
-    if (const auto read_text = read(key)) value = *read_text;
-  }
+bool flag_from(const std::string& text) {
+  if (text == "1" || text == "true" || text == "yes" || text == "on") return true;
+  if (text == "0" || text == "false" || text == "no" || text == "off") return false;
+  throw std::invalid_argument("true or false is expected");
+}
 
-  void list(const char* key, std::vector<std::string>& value, const char*) override {
-    const auto text = read(key);
-    if (!text) return;
-    value.clear();
-    for (const std::string& word : comma_separated(*text))
-      if (!word.empty()) value.push_back(word);
-  }
+std::size_t choice_from(const std::string& text, const std::vector<std::string>& choices) {
+  const auto found = std::find(choices.begin(), choices.end(), text);
+  if (found == choices.end())
+    throw std::invalid_argument("the choices are " + joined(choices, ", "));
+  return static_cast<std::size_t>(found - choices.begin());
+}
 
-  void choice(const char* key, int& value, const Choices& choices, const char*) override {
-    const auto text = read(key);
-    if (!text) return;
-    const auto found = std::find(choices.begin(), choices.end(), *text);
-    if (found == choices.end()) fail(key, *text, "the choices are " + joined(choices, ", "));
-    value = static_cast<int>(found - choices.begin());
-  }
+std::string with_choices(const std::string& comment, const std::vector<std::string>& choices) {
+  return comment + " (" + joined(choices, " | ") + ")";
+}
 
-  void reject_unknown_keys() const {
-    if (section_.empty()) return;
-    std::vector<std::string> keys;
-    if (source_.sectionExists(section_)) source_.getAllKeys(section_, keys);
-    for (const std::string& key : keys)
-      if (known_.count(key) == 0 && !belongs_to_driver(key))
-        throw std::invalid_argument("[" + section_ + "] " + key +
-                                    ": there is no such setting; there are " +
-                                    joined({known_.begin(), known_.end()}, ", "));
-  }
+std::vector<std::string> words_from(const std::string& text) {
+  std::vector<std::string> words = comma_separated(text);
+  words.erase(std::remove(words.begin(), words.end(), std::string()), words.end());
+  return words;
+}
 
- private:
-  // A live sensor's section also holds the keys of MRPT's own sensor base class.
-  [[nodiscard]] bool belongs_to_driver(const std::string& key) const {
-    static const std::set<std::string> driver_keys{"driver",          "process_rate",
-                                                   "sensorLabel",     "max_queue_len",
-                                                   "grab_decimation", "external_images_format"};
-    return section_ == main_section_ && main_section_ != kMainSection && driver_keys.count(key) > 0;
-  }
+// A live sensor's section also holds the keys of MRPT's own sensor base class.
+bool belongs_to_driver(const std::string& key) {
+  static const std::set<std::string> driver_keys{"driver",          "process_rate",
+                                                 "sensorLabel",     "max_queue_len",
+                                                 "grab_decimation", "external_images_format"};
+  return driver_keys.count(key) > 0;
+}
 
-  std::optional<std::string> read(const char* key) {
-    known_.insert(key);
-    if (!source_.sectionExists(section_) || !source_.keyExists(section_, key)) return {};
-    return trimmed(source_.read_string(section_, key, ""));
-  }
+void reject_unknown_keys(const SettingSection& section, const CConfigFileBase& source,
+                         const std::string& name) {
+  std::set<std::string> known;
+  for (const Setting& setting : section.settings) known.insert(setting.key);
+  const bool is_of_driver = section.name.empty() && name != kMainSection;
+  std::vector<std::string> keys;
+  source.getAllKeys(name, keys);
+  for (const std::string& key : keys)
+    if (known.count(key) == 0 && !(is_of_driver && belongs_to_driver(key)))
+      throw std::invalid_argument("[" + name + "] " + key +
+                                  ": there is no such setting; there are " +
+                                  joined({known.begin(), known.end()}, ", "));
+}
 
-  void check(const char* key, const std::string& text, double value, Range range) const {
-    if (value < range.min || value > range.max)
-      fail(key, text, "it must lie between " + to_text(range.min) + " and " + to_text(range.max));
+void load(const SettingSection& section, const CConfigFileBase& source, const std::string& name) {
+  if (!source.sectionExists(name)) return;
+  for (const Setting& setting : section.settings) {
+    if (!source.keyExists(name, setting.key)) continue;
+    const std::string text = trimmed(source.read_string(name, setting.key, ""));
+    try {
+      setting.set(text);
+    } catch (const std::invalid_argument& error) {
+      throw std::invalid_argument("[" + name + "] " + setting.key + " = '" + text +
+                                  "': " + error.what());
+    }
   }
-
-  [[noreturn]] void fail(const char* key, const std::string& value, const std::string& why) const {
-    throw std::invalid_argument("[" + section_ + "] " + key + " = '" + value + "': " + why);
-  }
-
-  const CConfigFileBase& source_;
-  std::string main_section_, section_;
-  std::set<std::string> known_;
-};
-
-// Tells each setting as a line of text.
-class Writer : public SettingVisitor {
- public:
-  void number(const char* key, double& value, Range, const char* comment) override {
-    line(key, to_text(value), comment);
-  }
-  void integer(const char* key, int& value, Range, const char* comment) override {
-    line(key, std::to_string(value), comment);
-  }
-  void flag(const char* key, bool& value, const char* comment) override {
-    line(key, value ? "true" : "false", comment);
-  }
-  void text(const char* key, std::string& value, const char* comment) override {
-    line(key, value, comment);
-  }
-  void list(const char* key, std::vector<std::string>& value, const char* comment) override {
-    line(key, joined(value, ","), comment);
-  }
-  void choice(const char* key, int& value, const Choices& choices, const char* comment) override {
-    line(key, choices.at(value), std::string(comment) + " (" + joined(choices, " | ") + ")");
-  }
-
- protected:
-  virtual void line(const char* key, const std::string& value, const std::string& comment) = 0;
-};
-
-class Saver : public Writer {
- public:
-  Saver(CConfigFileBase& target, std::string main_section)
-      : target_(target), main_section_(std::move(main_section)) {}
-
-  void section(const std::string& name, const std::string&) override {
-    section_ = name.empty() ? main_section_ : name;
-  }
-
- private:
-  void line(const char* key, const std::string& value, const std::string&) override {
-    target_.write(section_, key, value);
-  }
-
-  CConfigFileBase& target_;
-  std::string main_section_, section_;
-};
-
-class Documenter : public Writer {
- public:
-  void section(const std::string& name, const std::string& comment) override {
-    text_ << (text_.tellp() > 0 ? "\n" : "") << "# " << comment << "\n["
-          << (name.empty() ? kMainSection : name) << "]\n";
-  }
-  [[nodiscard]] std::string result() const { return text_.str(); }
-
- private:
-  void line(const char* key, const std::string& value, const std::string& comment) override {
-    text_ << "# " << comment << '\n' << key << " =" << (value.empty() ? "" : " ") << value << '\n';
-  }
-
-  std::ostringstream text_;
-};
+  reject_unknown_keys(section, source, name);
+}
 
 // The published method: every object by its own pose, found in points enough for chance to be out
 // of the question; the points are moved, no more.
@@ -206,25 +130,58 @@ void leave_the_picture_alone(Config& config) {
 
 }  // namespace
 
-void SettingVisitor::word(const char* key, std::string& value, const Choices& choices,
-                          const char* comment) {
-  const auto found = std::find(choices.begin(), choices.end(), value);
-  int position = found == choices.end() ? 0 : static_cast<int>(found - choices.begin());
-  choice(key, position, choices, comment);
-  value = choices.at(position);
+template <typename T, typename Read>
+void SettingList::add(const char* key, T& value, const std::string& comment, Read read) {
+  sections.back().settings.push_back(
+      {key, comment, [&value] { return to_text(value); },
+       [&value, read](const std::string& text) { value = read(text); }});
 }
 
-void Config::loadFromConfigFile(const CConfigFileBase& source, const std::string& section) {
-  Loader loader(source, section);
-  visit_settings(*this, loader);
-  loader.reject_unknown_keys();
+void SettingList::number(const char* key, double& value, Range range, const char* comment) {
+  add(key, value, comment, [range](const std::string& text) { return number_from(text, range); });
+}
+
+void SettingList::integer(const char* key, int& value, Range range, const char* comment) {
+  add(key, value, comment, [range](const std::string& text) { return integer_from(text, range); });
+}
+
+void SettingList::flag(const char* key, bool& value, const char* comment) {
+  add(key, value, comment, flag_from);
+}
+
+void SettingList::text(const char* key, std::string& value, const char* comment) {
+  add(key, value, comment, [](const std::string& text) { return text; });
+}
+
+void SettingList::list(const char* key, std::vector<std::string>& value, const char* comment) {
+  add(key, value, comment, words_from);
+}
+
+void SettingList::word(const char* key, std::string& value, const std::vector<std::string>& choices,
+                       const char* comment) {
+  add(key, value, with_choices(comment, choices),
+      [choices](const std::string& text) { return choices[choice_from(text, choices)]; });
+}
+
+void SettingList::choice(const char* key, const std::vector<std::string>& choices,
+                         const char* comment, const std::function<std::size_t()>& position,
+                         const std::function<void(std::size_t)>& set) {
+  sections.back().settings.push_back(
+      {key, with_choices(comment, choices), [choices, position] { return choices.at(position()); },
+       [choices, set](const std::string& text) { set(choice_from(text, choices)); }});
+}
+
+void Config::loadFromConfigFile(const CConfigFileBase& source, const std::string& main_section) {
+  for (const SettingSection& section : settings_of(*this))
+    load(section, source, section.name.empty() ? main_section : section.name);
   if (preset == "paper") leave_the_picture_alone(*this);
 }
 
-void Config::saveToConfigFile(CConfigFileBase& target, const std::string& section) const {
-  Saver saver(target, section);
+void Config::saveToConfigFile(CConfigFileBase& target, const std::string& main_section) const {
   Config copy = *this;
-  visit_settings(copy, saver);
+  for (const SettingSection& section : settings_of(copy))
+    for (const Setting& setting : section.settings)
+      target.write(section.name.empty() ? main_section : section.name, setting.key, setting.text());
 }
 
 std::string Config::virtual_label(const std::string& real_label) const {
@@ -247,10 +204,18 @@ void check_sections(const CConfigFileBase& source) {
 }
 
 std::string default_ini() {
-  Documenter documenter;
   Config defaults;
-  visit_settings(defaults, documenter);
-  return documenter.result();
+  std::string ini;
+  for (const SettingSection& section : settings_of(defaults)) {
+    ini += (ini.empty() ? "# " : "\n# ") + section.comment + "\n[" +
+           (section.name.empty() ? kMainSection : section.name) + "]\n";
+    for (const Setting& setting : section.settings) {
+      const std::string value = setting.text();
+      ini += "# " + setting.comment + '\n' + setting.key + (value.empty() ? " =" : " = ") + value +
+             '\n';
+    }
+  }
+  return ini;
 }
 
 }  // namespace lidar_upsampling

@@ -32,8 +32,7 @@ struct TimingOptions {
   double min_gap_ms = 15;            ///< no virtual scan is due this close to a real one
   double group_tolerance_ms = 5;     ///< images of several cameras that make one virtual scan
   double max_key_age_ms = 500;       ///< no virtual scan from a scan older than this
-  double max_anchor_gap_ms =
-      120;  ///< points are first put on a picture at most this long before the scan
+  double max_anchor_gap_ms = 120;    ///< a picture this long before the scan may take its points
 };
 
 /// How each object's own motion is found.
@@ -76,9 +75,9 @@ struct Config : public mrpt::config::CLoadableOptions {
   /// @throw std::invalid_argument naming section, key and value: an unknown key in a section of
   /// ours, a value of the wrong type or outside its range.
   void loadFromConfigFile(const mrpt::config::CConfigFileBase& source,
-                          const std::string& section) override;
+                          const std::string& main_section) override;
   void saveToConfigFile(mrpt::config::CConfigFileBase& target,
-                        const std::string& section) const override;
+                        const std::string& main_section) const override;
 
   /// The label in force for virtual scans.
   [[nodiscard]] std::string virtual_label(const std::string& real_label) const;

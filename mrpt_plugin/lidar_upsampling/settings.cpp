@@ -11,7 +11,7 @@ constexpr Range kPositive{1e-9, 1e9};
 constexpr Range kNotNegative{0, 1e9};
 constexpr Range kShare{0, 1};
 
-void visit_main(Config& c, SettingVisitor& v) {
+void list_main(Config& c, SettingList& v) {
   v.section("", "What goes in and out.");
   v.text("lidar_label", c.lidar_label, "sensor label of the LiDAR; empty: the only one there is");
   v.list("camera_labels", c.camera_labels,
@@ -32,23 +32,19 @@ void visit_main(Config& c, SettingVisitor& v) {
   v.word("resample", c.resample, {"none", "beam"},
          "none: every virtual point is a real one, moved; beam: as the sensor would have measured "
          "it, on its own beams");
-  v.choice_of(
-      "scan_time", c.sweep.scan_time,
-      {{"none", ScanTime::none}, {"azimuth", ScanTime::azimuth}, {"points", ScanTime::points}},
-      "instants of a scan's points; none: all at the stamp, or corrected already; azimuth: "
-      "as the scanner turns; points: the log tells");
-  v.choice_of("outside_view", c.compose.outside_view,
-              {{"ego", OutsideView::ego}, {"drop", OutsideView::drop}},
+  v.choice_of("scan_time", c.sweep.scan_time, {"none", "azimuth", "points"},
+              "instants of a scan's points; none: all at the stamp, or corrected already; azimuth: "
+              "as the scanner turns; points: the log tells");
+  v.choice_of("outside_view", c.compose.outside_view, {"ego", "drop"},
               "points that no camera sees: moved by the ego-motion, or left out");
-  v.choice_of("objects", c.compose.objects,
-              {{"keep", MovingObjects::keep}, {"drop", MovingObjects::drop}},
+  v.choice_of("objects", c.compose.objects, {"keep", "drop"},
               "moving objects in the virtual scans; drop: the static world only");
   v.integer("annotate", c.annotate, {0, 1},
             "1: the tracked objects beside each virtual scan, as boxes with arrows that "
             "RawLogViewer shows");
 }
 
-void visit_timing(Config& c, SettingVisitor& v) {
+void list_timing(Config& c, SettingList& v) {
   TimingOptions& t = c.timing;
   v.section("timing", "How observations are brought together in time.");
   v.number("camera_time_offset_ms", t.camera_time_offset_ms, {-1000, 1000},
@@ -65,30 +61,21 @@ void visit_timing(Config& c, SettingVisitor& v) {
            "the scan's points are put on an image at most this far from it");
 }
 
-void visit_sweep(Config& c, SettingVisitor& v) {
+void list_sweep(Config& c, SettingList& v) {
   SweepOptions& s = c.sweep;
   v.section("sweep", "How the scanner turns, with scan_time = azimuth.");
   v.number("start_deg", s.start_deg, {-360, 360},
            "where a scan begins; 0 is ahead, 90 to the left");
-  v.choice_of("direction", s.direction,
-              {{"clockwise", TurnDirection::clockwise},
-               {"counterclockwise", TurnDirection::counterclockwise}},
-              "seen from above");
+  v.choice_of("direction", s.direction, {"clockwise", "counterclockwise"}, "seen from above");
   v.number("reference", s.reference, kShare, "share of the turn at the stamp; 0: its begin");
   v.number("period_ms", s.period_ms, {0, 10000},
            "of a turn; 0: the shortest time between two scans of the log");
 }
 
-void visit_ego(Config& c, SettingVisitor& v) {
+void list_ego(Config& c, SettingList& v) {
   EgoMotionOptions& e = c.ego_motion;
   v.section("ego_motion", "How the vehicle moves.");
-  v.choice_of("source", e.source,
-              {{"auto", EgoSource::automatic},
-               {"poses", EgoSource::poses},
-               {"odometry", EgoSource::odometry},
-               {"gnss", EgoSource::gnss},
-               {"camera", EgoSource::camera},
-               {"none", EgoSource::none}},
+  v.choice_of("source", e.source, {"auto", "poses", "odometry", "gnss", "camera", "none"},
               "auto: the first of poses, odometry, gnss that the log offers, joined with scans and "
               "camera; else those alone");
   v.flag("fuse", e.fuse,
@@ -102,11 +89,7 @@ void visit_ego(Config& c, SettingVisitor& v) {
            "heading comes from displacements longer than this");
   PoseFileOptions& f = c.pose_file;
   v.text("poses_file", f.path, "poses that take the place of the log's; empty: none");
-  v.choice_of("poses_format", f.format,
-              {{"auto", PoseFileFormat::automatic},
-               {"tum", PoseFileFormat::tum},
-               {"kitti", PoseFileFormat::kitti},
-               {"csv", PoseFileFormat::csv}},
+  v.choice_of("poses_format", f.format, {"auto", "tum", "kitti", "csv"},
               "t x y z qx qy qz qw, the 12 numbers of a matrix, or a table with a header; auto: "
               "what the first line looks like");
   v.text("poses_times", f.times,
@@ -116,13 +99,10 @@ void visit_ego(Config& c, SettingVisitor& v) {
          "camera");
 }
 
-void visit_detector(Config& c, SettingVisitor& v) {
+void list_detector(Config& c, SettingList& v) {
   DetectorOptions& d = c.detector;
   v.section("detector", "Where object candidates come from.");
-  v.choice_of("type", d.type,
-              {{"clusters", DetectorOptions::Type::clusters},
-               {"network", DetectorOptions::Type::network},
-               {"csv", DetectorOptions::Type::csv}},
+  v.choice_of("type", d.type, {"clusters", "network", "csv"},
               "clusters of the scan itself, a neural network on the image, or boxes from a file");
   ClusterDetectorOptions& k = d.clusters;
   v.integer("cluster_min_points", k.min_points, kPositive, "clusters: fewer points are no object");
@@ -154,7 +134,7 @@ void visit_detector(Config& c, SettingVisitor& v) {
            "csv: how far a row's stamp may be from the image's");
 }
 
-void visit_scene(Config& c, SettingVisitor& v) {
+void list_scene(Config& c, SettingList& v) {
   GroundOptions& g = c.segments.ground;
   v.section("ground", "The ground, which belongs to no object.");
   v.number("cell_size_m", g.cell_size, kPositive,
@@ -174,7 +154,7 @@ void visit_scene(Config& c, SettingVisitor& v) {
   v.integer("min_points", k.min_points, kPositive, "smaller clusters are dropped");
 }
 
-void visit_vision(Config& c, SettingVisitor& v) {
+void list_vision(Config& c, SettingList& v) {
   PointTrackOptions& p = c.point_tracks;
   v.section("points", "Which LiDAR points are followed on the picture.");
   v.integer("max_points_per_object", p.max_points_per_object, {4, 5000},
@@ -197,7 +177,7 @@ void visit_vision(Config& c, SettingVisitor& v) {
            "mean difference of the patches, gray levels");
 }
 
-void visit_motion(Config& c, SettingVisitor& v) {
+void list_motion(Config& c, SettingList& v) {
   PictureMotionOptions& o = c.object_motion.picture;
   v.section("object_motion",
             "Each object's own motion: what is asked, and the pose of its points.");
@@ -223,7 +203,7 @@ void visit_motion(Config& c, SettingVisitor& v) {
   v.number("max_speed_m_s", o.max_speed, kPositive, "over ground; faster is no consensus");
 }
 
-void visit_tracks(Config& c, SettingVisitor& v) {
+void list_tracks(Config& c, SettingList& v) {
   TrackOptions& t = c.object_tracks;
   constexpr Range kProbability{1e-6, 1 - 1e-6};
   v.section("object_tracks", "Objects as tracks in the world.");
@@ -266,7 +246,7 @@ void visit_tracks(Config& c, SettingVisitor& v) {
   v.number("tilt_rate_sigma_deg_s", t.tilt_rate_sigma_deg, kPositive, "likewise");
 }
 
-void visit_resampling(Config& c, SettingVisitor& v) {
+void list_resampling(Config& c, SettingList& v) {
   ResampleOptions& r = c.resampling;
   v.section("resample", "The moved scan on the sensor's own beams, with resample = beam.");
   v.number("min_motion_m", r.min_motion_m, kNotNegative,
@@ -283,17 +263,12 @@ void visit_resampling(Config& c, SettingVisitor& v) {
 
 }  // namespace
 
-void visit_settings(Config& config, SettingVisitor& visitor) {
-  visit_main(config, visitor);
-  visit_timing(config, visitor);
-  visit_sweep(config, visitor);
-  visit_ego(config, visitor);
-  visit_detector(config, visitor);
-  visit_scene(config, visitor);
-  visit_vision(config, visitor);
-  visit_motion(config, visitor);
-  visit_tracks(config, visitor);
-  visit_resampling(config, visitor);
+std::vector<SettingSection> settings_of(Config& config) {
+  SettingList list;
+  for (const auto add : {list_main, list_timing, list_sweep, list_ego, list_detector, list_scene,
+                         list_vision, list_motion, list_tracks, list_resampling})
+    add(config, list);
+  return list.sections;
 }
 
 }  // namespace lidar_upsampling

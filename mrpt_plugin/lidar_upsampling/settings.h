@@ -2,10 +2,9 @@
 // Copyright (c) 2026, the lidar_upsampling authors
 #pragma once
 
-#include <initializer_list>
+#include <functional>
 #include <limits>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace lidar_upsampling {
@@ -19,40 +18,52 @@ struct Range {
   bool odd = false;  ///< of a whole number: an even one is not allowed
 };
 
-/// The words that a setting may take.
-using Choices = std::vector<std::string>;
-
-/// @brief Visits every setting of a Config: loading, saving and the commented default file all go
-/// through the one list of settings in settings.cpp.
-class SettingVisitor {
- public:
-  virtual ~SettingVisitor() = default;
-  /// `name` is empty for the main section, whose name the front end chooses.
-  virtual void section(const std::string& name, const std::string& comment) = 0;
-  virtual void number(const char* key, double& value, Range range, const char* comment) = 0;
-  virtual void integer(const char* key, int& value, Range range, const char* comment) = 0;
-  virtual void flag(const char* key, bool& value, const char* comment) = 0;
-  virtual void text(const char* key, std::string& value, const char* comment) = 0;
-  virtual void list(const char* key, std::vector<std::string>& value, const char* comment) = 0;
-  /// `value` is a position in `choices`.
-  virtual void choice(const char* key, int& value, const Choices& choices, const char* comment) = 0;
-
-  template <typename Enum>
-  void choice_of(const char* key, Enum& value,
-                 std::initializer_list<std::pair<const char*, Enum>> choices, const char* comment) {
-    Choices words;
-    int position = 0;
-    for (const auto& [word, meaning] : choices) {
-      if (meaning == value) position = static_cast<int>(words.size());
-      words.emplace_back(word);
-    }
-    choice(key, position, words, comment);
-    value = (choices.begin() + position)->second;
-  }
-
-  void word(const char* key, std::string& value, const Choices& choices, const char* comment);
+/// A value of a Config, as text.
+struct Setting {
+  std::string key, comment;
+  std::function<std::string()> text;
+  std::function<void(const std::string&)> set;  ///< @throw std::invalid_argument what is expected
 };
 
-void visit_settings(Config& config, SettingVisitor& visitor);
+struct SettingSection {
+  std::string name;  ///< empty for the main section, whose name the front end chooses
+  std::string comment;
+  std::vector<Setting> settings;
+};
+
+/// The settings of a Config, written down one after the other. They refer to the values.
+struct SettingList {
+  std::vector<SettingSection> sections;
+
+  void section(const char* name, const char* comment) { sections.push_back({name, comment, {}}); }
+  void number(const char* key, double& value, Range range, const char* comment);
+  void integer(const char* key, int& value, Range range, const char* comment);
+  void flag(const char* key, bool& value, const char* comment);
+  void text(const char* key, std::string& value, const char* comment);
+  void list(const char* key, std::vector<std::string>& value, const char* comment);
+  void word(const char* key, std::string& value, const std::vector<std::string>& choices,
+            const char* comment);
+
+  /// @param choices in the order of the enumerators.
+  template <typename Enum>
+  void choice_of(const char* key, Enum& value, const std::vector<std::string>& choices,
+                 const char* comment) {
+    choice(
+        key, choices, comment, [&value] { return static_cast<std::size_t>(value); },
+        [&value](std::size_t position) { value = static_cast<Enum>(position); });
+  }
+
+ private:
+  template <typename T, typename Read>
+  void add(const char* key, T& value, const std::string& comment, Read read);
+  void choice(const char* key, const std::vector<std::string>& choices, const char* comment,
+              const std::function<std::size_t()>& position,
+              const std::function<void(std::size_t)>& set);
+};
+
+/// @brief Every setting there is: loading, saving and the commented default file all go through
+/// this one list.
+/// @param config what the settings refer to; must outlive them.
+[[nodiscard]] std::vector<SettingSection> settings_of(Config& config);
 
 }  // namespace lidar_upsampling
