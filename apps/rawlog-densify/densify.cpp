@@ -12,7 +12,6 @@
 #include "densification.h"
 #include "lidar_upsampling/front_end/pose_input.h"
 #include "lidar_upsampling/front_end/virtual_observations.h"
-#include "lidar_upsampling/io/external_storage.h"
 #include "lidar_upsampling/io/log_index.h"
 #include "lidar_upsampling/io/rawlog_stream.h"
 #include "lidar_upsampling/io/sensory_frame.h"

@@ -9,7 +9,7 @@
 #include <stdexcept>
 
 #include "lidar_upsampling/front_end/pose_input.h"
-#include "lidar_upsampling/io/external_storage.h"
+#include "lidar_upsampling/io/rawlog_stream.h"
 #include "lidar_upsampling/text.h"
 #include "plugin/live_upsampling.h"
 #include "plugin/log_player.h"

@@ -14,7 +14,7 @@
 #include "dgp2rawlog/dgp_calibration.h"
 #include "import/json_file.h"
 #include "import/log_items.h"
-#include "lidar_upsampling/stamp_text.h"
+#include "lidar_upsampling/types.h"
 
 namespace fs = std::filesystem;
 

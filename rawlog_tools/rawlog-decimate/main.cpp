@@ -10,7 +10,6 @@
 #include <set>
 
 #include "common/tool_main.h"
-#include "lidar_upsampling/io/external_storage.h"
 #include "lidar_upsampling/io/rawlog_stream.h"
 #include "lidar_upsampling/io/sensory_frame.h"
 

@@ -11,7 +11,7 @@
 
 #include "chosen_scans.h"
 #include "common/tool_main.h"
-#include "lidar_upsampling/stamp_text.h"
+#include "lidar_upsampling/types.h"
 #include "scan_files.h"
 #include "scene_files.h"
 

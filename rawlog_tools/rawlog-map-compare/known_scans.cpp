@@ -11,7 +11,7 @@
 #include "lidar_upsampling/io/log_index.h"
 #include "lidar_upsampling/io/rawlog_stream.h"
 #include "lidar_upsampling/registration/scan_registration.h"
-#include "lidar_upsampling/stamp_text.h"
+#include "lidar_upsampling/types.h"
 
 namespace lidar_upsampling::maps {
 namespace {

@@ -9,7 +9,6 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 
-#include "lidar_upsampling/io/external_storage.h"
 #include "lidar_upsampling/io/rawlog_stream.h"
 #include "test_folder.h"
 

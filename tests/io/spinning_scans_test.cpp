@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the lidar_upsampling authors
-#include "lidar_upsampling/io/spinning_scans.h"
+#include "lidar_upsampling/io/scan_classes.h"
 
 #include <gtest/gtest.h>
 

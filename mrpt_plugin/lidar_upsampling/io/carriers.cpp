@@ -9,11 +9,8 @@
 #include <filesystem>
 #include <stdexcept>
 
-#include "lidar_upsampling/io/depth_image.h"
 #include "lidar_upsampling/io/images.h"
-#include "lidar_upsampling/io/point_cloud.h"
-#include "lidar_upsampling/io/range_scan_3d.h"
-#include "lidar_upsampling/io/spinning_scans.h"
+#include "lidar_upsampling/io/scan_classes.h"
 #include "lidar_upsampling/text.h"
 
 namespace lidar_upsampling {
@@ -45,42 +42,22 @@ std::vector<std::string> external_files(const mrpt::obs::CObservation& observati
   return files;
 }
 
-// Loads external storage, and unloads it however the scope is left.
-class LoadedObservation {
- public:
-  explicit LoadedObservation(const mrpt::obs::CObservation& observation)
-      : observation_(observation) {
-    // Some classes load nothing from a missing file, without a word.
-    const std::vector<std::string> files = external_files(observation);
-    for (const std::string& file : files) {
-      if (!std::filesystem::exists(file)) throw std::runtime_error("there is no file " + file);
-    }
-    // Not without need: unload() of later MRPTs erases a Velodyne's embedded points.
-    external_ = !files.empty();
-    if (external_) observation_.load();
-  }
-  ~LoadedObservation() {
-    if (external_) observation_.unload();
-  }
-  LoadedObservation(const LoadedObservation&) = delete;
-  LoadedObservation& operator=(const LoadedObservation&) = delete;
-
- private:
-  const mrpt::obs::CObservation& observation_;
-  bool external_ = false;
-};
-
-void read_points(mrpt::obs::CObservation& observation, LidarScan& scan) {
-  const LoadedObservation loaded(observation);
-  if (const auto* const cloud = dynamic_cast<const CObservationPointCloud*>(&observation)) {
+void read_points(const mrpt::obs::CObservation& observation, LidarScan& scan) {
+  // Some classes load nothing from a missing file, without a word.
+  const std::vector<std::string> files = external_files(observation);
+  for (const std::string& file : files)
+    if (!std::filesystem::exists(file)) throw std::runtime_error("there is no file " + file);
+  // Not without need: unload() of later MRPTs erases a Velodyne's embedded points.
+  if (!files.empty()) observation.load();
+  if (const auto* const cloud = dynamic_cast<const CObservationPointCloud*>(&observation))
     read_point_cloud(*cloud, scan);
-  } else if (const auto* const depth = dynamic_cast<const CObservation3DRangeScan*>(&observation)) {
+  else if (const auto* const depth = dynamic_cast<const CObservation3DRangeScan*>(&observation))
     read_range_scan_3d(*depth, scan);
-  } else if (auto* const velodyne = dynamic_cast<CObservationVelodyneScan*>(&observation)) {
+  else if (const auto* const velodyne = dynamic_cast<const CObservationVelodyneScan*>(&observation))
     read_velodyne_scan(*velodyne, scan);
-  } else {
+  else
     read_rotating_scan(dynamic_cast<const CObservationRotatingScan&>(observation), scan);
-  }
+  if (!files.empty()) observation.unload();
 }
 
 Carrier resolve(Carrier carrier, const mrpt::obs::CObservation* like) {
@@ -114,34 +91,16 @@ mrpt::obs::CObservation::Ptr make_observation(const LidarScan& scan, Carrier car
     // MRPT's SLAM and mapping programs take no notice of ranges without points.
     return make_depth_image(scan, *depth, carrier == Carrier::automatic || depth->hasPoints3D);
   }
-  switch (resolve(carrier, like)) {
-    case Carrier::point_cloud:
-      return make_point_cloud(scan);
-    case Carrier::same:
-      return make_velodyne_scan(scan);
-    default:
-      return make_range_scan_3d(scan);
-  }
-}
-
-template <typename T>
-void check_length(const std::vector<T>& field, const LidarScan& scan, const char* name) {
-  if (field.empty() || field.size() == scan.size()) return;
-  throw std::invalid_argument("scan '" + scan.label + "' has " + std::to_string(scan.size()) +
-                              " points, but " + std::to_string(field.size()) + " values of " +
-                              name);
+  const Carrier resolved = resolve(carrier, like);
+  if (resolved == Carrier::point_cloud) return make_point_cloud(scan);
+  if (resolved == Carrier::same) return make_velodyne_scan(scan);
+  return make_range_scan_3d(scan);
 }
 
 void check(const LidarScan& scan) {
-  check_length(scan.intensity, scan, "intensity");
-  check_length(scan.ring, scan, "ring");
-  check_length(scan.column, scan, "column");
-  check_length(scan.time_s, scan, "time_s");
-  for (const Eigen::Vector3f& point : scan.points) {
-    if (!point.allFinite()) {
+  for (const Eigen::Vector3f& point : scan.points)
+    if (!point.allFinite())
       throw std::invalid_argument("scan '" + scan.label + "' has a point that is not finite");
-    }
-  }
 }
 
 }  // namespace
@@ -162,7 +121,7 @@ bool is_lidar_scan(const mrpt::obs::CObservation& observation) {
          dynamic_cast<const CObservationRotatingScan*>(&observation) != nullptr;
 }
 
-std::optional<LidarScan> scan_from_observation(mrpt::obs::CObservation& observation) {
+std::optional<LidarScan> scan_from_observation(const mrpt::obs::CObservation& observation) {
   if (!is_lidar_scan(observation)) return std::nullopt;
   LidarScan scan;
   scan.stamp = observation.timestamp;

@@ -14,7 +14,7 @@ namespace lidar_upsampling {
 /// The MRPT class that scans travel in. `automatic` is `range_scan_3d` before MRPT 2.11.3 (whose
 /// maps put a CObservationPointCloud at the wrong place) and `point_cloud` from there on; `same` is
 /// the class of the real scans where it can hold points, else `automatic`. Of a depth camera both
-/// make depth images (depth_image.h), `automatic` with points, which MRPT's maps need.
+/// make depth images (scan_classes.h), `automatic` with points, which MRPT's maps need.
 enum class Carrier { automatic, range_scan_3d, point_cloud, same };
 
 /// "auto", "3drangescan", "pointcloud", "same". @throw std::invalid_argument with the choices.
@@ -30,7 +30,8 @@ enum class Carrier { automatic, range_scan_3d, point_cloud, same };
 /// Loads external storage, and unloads it again.
 /// @return none if `is_lidar_scan` is false.
 /// @throw std::runtime_error naming label and stamp: external file missing or broken.
-[[nodiscard]] std::optional<LidarScan> scan_from_observation(mrpt::obs::CObservation& observation);
+[[nodiscard]] std::optional<LidarScan> scan_from_observation(
+    const mrpt::obs::CObservation& observation);
 
 /// @brief A stock observation that holds the scan, embedded, ready for 3D display and mapping.
 /// 3DRangeScan: `points3D`; ring and column in `points3D_idxs_*`; 8-bit intensity in a ring x

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the lidar_upsampling authors
-#include "lidar_upsampling/io/depth_image.h"
+#include "lidar_upsampling/io/scan_classes.h"
 
 #include <algorithm>
 #include <array>
@@ -9,7 +9,6 @@
 #include <cstdlib>
 #include <limits>
 #include <opencv2/core/mat.hpp>
-#include <stdexcept>
 #include <vector>
 
 #include "lidar_upsampling/io/images.h"
@@ -17,12 +16,6 @@
 
 namespace lidar_upsampling {
 namespace {
-
-/// What a camera in the place of the sensor sees of a scan.
-struct DepthSurface {
-  cv::Mat depth;      ///< CV_32F, metres along the optical axis; 0: nothing
-  cv::Mat intensity;  ///< CV_32F, [0, 1]; empty if the scan has none
-};
 
 constexpr float kSteepest = 8;        // depth per width of a surface: seen under 7 degrees
 constexpr float kNoise_m = 0.01F;     // in neighbours' depths
@@ -41,12 +34,13 @@ float turn(const Vertex& a, const Vertex& b, float u, float v) {
   return (b.u - a.u) * (v - a.v) - (b.v - a.v) * (u - a.u);
 }
 
+// What a camera in the place of the sensor sees of a scan.
 class SurfacePainter {
  public:
   SurfacePainter(const CameraModel& model, bool with_intensity)
-      : step_(1 / static_cast<float>(std::min(model.fx, model.fy))) {
-    surface_.depth = cv::Mat::zeros(model.height, model.width, CV_32F);
-    if (with_intensity) surface_.intensity = cv::Mat::zeros(model.height, model.width, CV_32F);
+      : depth(cv::Mat1f::zeros(model.height, model.width)),
+        step_(1 / static_cast<float>(std::min(model.fx, model.fy))) {
+    if (with_intensity) intensity = cv::Mat1f::zeros(model.height, model.width);
   }
 
   // The two triangles of four neighbouring cells, along the diagonal that is no edge.
@@ -58,7 +52,7 @@ class SurfacePainter {
 
   // Single points, and in the cracks along depth edges the points beside them.
   void paint_points(const std::vector<Vertex>& vertices) {
-    const cv::Mat covered = surface_.depth > 0;
+    const cv::Mat covered = depth > 0;
     for (const Vertex& point : vertices) {
       const auto x = static_cast<int>(std::lround(point.u));
       const auto y = static_cast<int>(std::lround(point.v));
@@ -69,11 +63,12 @@ class SurfacePainter {
     }
   }
 
-  [[nodiscard]] DepthSurface surface() const { return surface_; }
+  cv::Mat1f depth;      // metres along the optical axis; 0: nothing
+  cv::Mat1f intensity;  // [0, 1]; empty if the scan has none
 
  private:
   [[nodiscard]] bool contains(int x, int y) const {
-    return x >= 0 && y >= 0 && x < surface_.depth.cols && y < surface_.depth.rows;
+    return x >= 0 && y >= 0 && x < depth.cols && y < depth.rows;
   }
 
   [[nodiscard]] bool joined(const Vertex& a, const Vertex& b) const {
@@ -102,15 +97,14 @@ class SurfacePainter {
     }
   }
 
-  void put(int x, int y, float depth, float intensity) {
+  void put(int x, int y, float depth_there, float intensity_there) {
     if (!contains(x, y)) return;
-    auto& nearest = surface_.depth.at<float>(y, x);
-    if (nearest != 0 && nearest <= depth) return;
-    nearest = depth;
-    if (!surface_.intensity.empty()) surface_.intensity.at<float>(y, x) = intensity;
+    float& nearest = depth(y, x);
+    if (nearest != 0 && nearest <= depth_there) return;
+    nearest = depth_there;
+    if (!intensity.empty()) intensity(y, x) = intensity_there;
   }
 
-  DepthSurface surface_;
   float step_;  // between neighbouring pixels' rays
 };
 
@@ -126,11 +120,13 @@ std::vector<Vertex> vertices_of(const LidarScan& scan, const CameraModel& model)
   return vertices;
 }
 
-// The vertices of a scan's picture, row by row from above; null where nothing was measured.
-std::vector<Vertex*> picture_of(const LidarScan& scan, std::vector<Vertex>& vertices) {
+// The vertices of a scan's picture, row by row from above; `nothing` where nothing was measured.
+std::vector<Vertex*> picture_of(const LidarScan& scan, std::vector<Vertex>& vertices,
+                                Vertex& nothing) {
   if (scan.ring.size() != scan.size() || scan.column.size() != scan.size()) return {};
-  std::vector<Vertex*> picture(static_cast<std::size_t>(scan.num_rings) *
-                               static_cast<std::size_t>(scan.num_columns));
+  std::vector<Vertex*> picture(
+      static_cast<std::size_t>(scan.num_rings) * static_cast<std::size_t>(scan.num_columns),
+      &nothing);
   for (std::size_t i = 0; i < scan.size(); ++i) {
     if (scan.ring[i] >= scan.num_rings || scan.column[i] >= scan.num_columns) continue;
     const auto row = static_cast<std::size_t>(scan.num_rings - 1 - scan.ring[i]);
@@ -144,14 +140,11 @@ std::vector<Vertex*> picture_of(const LidarScan& scan, std::vector<Vertex>& vert
 /// the nearest one in front. None lies across a depth edge. Points of no triangle, and those in a
 /// crack along a depth edge, are drawn as one pixel.
 /// @param model of a camera that looks along +X of the lidar frame, +Z up.
-DepthSurface draw_surface(const LidarScan& scan, const CameraModel& model) {
+SurfacePainter draw_surface(const LidarScan& scan, const CameraModel& model) {
   SurfacePainter painter(model, !scan.intensity.empty());
   std::vector<Vertex> vertices = vertices_of(scan, model);
-  std::vector<Vertex*> picture = picture_of(scan, vertices);
   Vertex nothing;
-  for (Vertex*& vertex : picture) {
-    if (vertex == nullptr) vertex = &nothing;
-  }
+  const std::vector<Vertex*> picture = picture_of(scan, vertices, nothing);
   const auto columns = static_cast<std::size_t>(scan.num_columns);
   for (std::size_t corner = 0; corner + columns + 1 < picture.size(); ++corner) {
     if ((corner + 1) % columns == 0) continue;
@@ -159,7 +152,7 @@ DepthSurface draw_surface(const LidarScan& scan, const CameraModel& model) {
                    picture[corner + columns]});
   }
   painter.paint_points(vertices);
-  return painter.surface();
+  return painter;
 }
 
 using mrpt::obs::CObservation3DRangeScan;
@@ -171,7 +164,7 @@ double range_per_depth(const CameraModel& model, int row, int column, bool range
   return ray ? std::hypot(1., ray->x(), ray->y()) : std::numeric_limits<double>::infinity();
 }
 
-void set_ranges(const cv::Mat& depth, const CameraModel& model,
+void set_ranges(const cv::Mat1f& depth, const CameraModel& model,
                 CObservation3DRangeScan& observation) {
   constexpr double kLargest = std::numeric_limits<std::uint16_t>::max();
   observation.hasRangeImage = true;
@@ -179,7 +172,7 @@ void set_ranges(const cv::Mat& depth, const CameraModel& model,
   observation.rangeImage.fill(0);
   for (int row = 0; row < depth.rows; ++row) {
     for (int column = 0; column < depth.cols; ++column) {
-      const double x = depth.at<float>(row, column);
+      const double x = depth(row, column);
       if (x == 0) continue;
       const double steps =
           std::round(x * range_per_depth(model, row, column, observation.range_is_depth) /
@@ -208,10 +201,6 @@ CObservation3DRangeScan::Ptr make_depth_image(const LidarScan& scan,
                                               const CObservation3DRangeScan& like,
                                               bool with_points) {
   const CameraModel model = from_mrpt(like.cameraParams);
-  if (!is_depth_image(like)) {
-    throw std::invalid_argument("scan '" + like.sensorLabel + "' is no depth image: " +
-                                (like.hasRangeImage ? "no intrinsics" : "no range picture"));
-  }
   auto observation = CObservation3DRangeScan::Create();
   observation->cameraParams = like.cameraParams;
   observation->cameraParamsIntensity = like.cameraParamsIntensity;
@@ -221,7 +210,7 @@ CObservation3DRangeScan::Ptr make_depth_image(const LidarScan& scan,
   observation->rangeUnits = like.rangeUnits;
   observation->range_is_depth = like.range_is_depth;
 
-  const DepthSurface surface = draw_surface(scan, model);
+  const SurfacePainter surface = draw_surface(scan, model);
   set_ranges(surface.depth, model, *observation);
   if (!scan.intensity.empty() && shows_intensity_of_points(like)) {
     cv::Mat gray;

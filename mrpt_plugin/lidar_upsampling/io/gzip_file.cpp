@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <stdexcept>
 #include <system_error>
 #include <utility>
 
@@ -51,14 +50,6 @@ size_t RecordingGzipReader::Read(void* buffer, size_t count) {
   return done;
 }
 
-size_t RecordingGzipReader::Write(const void* /*buffer*/, size_t /*count*/) {
-  throw std::logic_error("RecordingGzipReader only reads");
-}
-
-uint64_t RecordingGzipReader::Seek(int64_t /*offset*/, TSeekOrigin /*origin*/) {
-  throw std::logic_error("RecordingGzipReader cannot seek");
-}
-
 bool RecordingGzipReader::at_end() {
   const int next = gzgetc(file_);
   if (next < 0) return true;
@@ -89,24 +80,14 @@ double RecordingGzipReader::progress() const {
 }
 
 GzipWriter::GzipWriter(const std::string& path, int level) : path_(path) {
-  if (level < 0 || level > 9) {
-    throw std::invalid_argument("gzip level " + std::to_string(level) + " is not within 0 to 9");
-  }
-  descriptor_ = open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-  if (descriptor_ < 0) throw_open_error(path, "writing", errno);
-  const std::string mode = "wb" + std::to_string(level);
-  file_ =
-      gzdopen(dup(descriptor_), mode.c_str());  // its own descriptor: gzclose must not close ours
-  if (file_ == nullptr) {
-    ::close(descriptor_);
-    throw_open_error(path, "writing", errno);
-  }
+  const std::string mode = "wbxe" + std::to_string(level);
+  file_ = gzopen(path.c_str(), mode.c_str());
+  if (file_ == nullptr) throw_open_error(path, "writing", errno);
   gzbuffer(file_, kBufferSize);
 }
 
 GzipWriter::~GzipWriter() {
   if (file_ != nullptr) gzclose_w(file_);
-  if (descriptor_ >= 0) ::close(descriptor_);
 }
 
 void GzipWriter::fail(int error_number) const {
@@ -125,8 +106,12 @@ void GzipWriter::write(const std::vector<std::uint8_t>& bytes) {
 void GzipWriter::close() {
   const int code = gzclose_w(std::exchange(file_, nullptr));
   if (code != Z_OK) fail(code == Z_ERRNO ? errno : EIO);
-  if (fsync(descriptor_) != 0 && errno != EINVAL && errno != ENOTSUP) fail(errno);
-  if (::close(std::exchange(descriptor_, -1)) != 0) fail(errno);
+  const int descriptor = open(path_.c_str(), O_WRONLY | O_CLOEXEC);
+  if (descriptor < 0) fail(errno);
+  const bool is_safe = fsync(descriptor) == 0 || errno == EINVAL || errno == ENOTSUP;
+  const int error_number = errno;
+  ::close(descriptor);
+  if (!is_safe) fail(error_number);
 }
 
 }  // namespace lidar_upsampling

@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -28,8 +29,8 @@ class RecordingGzipReader : public mrpt::io::CStream {
   uint64_t getPosition() const override { return position_; }
   std::string getStreamDescription() const override { return path_; }
 
-  size_t Write(const void* buffer, size_t count) override;
-  uint64_t Seek(int64_t offset, TSeekOrigin origin) override;
+  size_t Write(const void*, size_t) override { throw std::logic_error("only reads"); }
+  uint64_t Seek(int64_t, TSeekOrigin) override { throw std::logic_error("cannot seek"); }
 
   /// Whether nothing is left to read, be it the clean end or a defect.
   [[nodiscard]] bool at_end();
@@ -65,7 +66,6 @@ class GzipWriter {
   [[noreturn]] void fail(int error_number) const;
 
   std::string path_;
-  int descriptor_ = -1;
   gzFile file_ = nullptr;
 };
 

@@ -20,22 +20,6 @@ static_assert(static_cast<int>(DistortionModel::plumb_bob) ==
               static_cast<int>(DistortionModel::kannala_brandt) ==
                   static_cast<int>(mrpt::img::DistortionModel::kannala_brandt));
 
-// Loads an externally stored picture, and unloads it however the scope is left.
-class LoadedImage {
- public:
-  explicit LoadedImage(const CImage& image) : image_(image) {
-    if (image_.isExternallyStored()) image_.forceLoad();
-  }
-  ~LoadedImage() { image_.unload(); }  // does nothing to an embedded one
-  LoadedImage(const LoadedImage&) = delete;
-  LoadedImage& operator=(const LoadedImage&) = delete;
-
-  [[nodiscard]] cv::Mat pixels() const { return image_.asCvMat<cv::Mat>(mrpt::img::DEEP_COPY); }
-
- private:
-  const CImage& image_;
-};
-
 cv::Mat to_8_bit(const cv::Mat& pixels) {
   if (pixels.depth() == CV_8U) return pixels;
   cv::Mat out;
@@ -44,13 +28,14 @@ cv::Mat to_8_bit(const cv::Mat& pixels) {
 }
 
 cv::Mat load_pixels(const mrpt::obs::CObservationImage& observation) {
+  const CImage& image = observation.image;
   try {
-    const LoadedImage loaded(observation.image);
-    cv::Mat pixels = to_8_bit(loaded.pixels());
+    if (image.isExternallyStored()) image.forceLoad();
+    cv::Mat pixels = to_8_bit(image.asCvMat<cv::Mat>(mrpt::img::DEEP_COPY));
+    image.unload();  // does nothing to an embedded one
     if (pixels.empty()) throw std::runtime_error("it is empty");
     return pixels;
   } catch (const std::exception& error) {
-    const CImage& image = observation.image;
     throw std::runtime_error("no picture in image '" + observation.sensorLabel + "' of " +
                              mrpt::system::dateTimeToString(observation.timestamp) +
                              (image.isExternallyStored()
@@ -122,7 +107,7 @@ Camera camera_of(const mrpt::obs::CObservationImage& observation) {
           from_mrpt(observation.cameraPose)};
 }
 
-CameraImage image_from_observation(mrpt::obs::CObservationImage& observation) {
+CameraImage image_from_observation(const mrpt::obs::CObservationImage& observation) {
   CameraImage image{observation.timestamp, camera_of(observation), {}, {}};
   const cv::Mat pixels = load_pixels(observation);
   image.camera.model = scaled(image.camera.model, pixels.cols, pixels.rows);

@@ -6,8 +6,6 @@
 #include <mrpt/obs/CObservationImage.h>
 #include <mrpt/poses/CPose3D.h>
 
-#include <optional>
-
 #include "lidar_upsampling/types.h"
 
 namespace lidar_upsampling {
@@ -31,7 +29,7 @@ namespace lidar_upsampling {
 /// unloaded again, so that the observation is written back as it was). The intrinsics are scaled if
 /// the picture's size differs from the calibration's.
 /// @throw std::runtime_error naming label, stamp and file: missing, or no picture.
-[[nodiscard]] CameraImage image_from_observation(mrpt::obs::CObservationImage& observation);
+[[nodiscard]] CameraImage image_from_observation(const mrpt::obs::CObservationImage& observation);
 
 /// @brief A gray or colour picture with its calibration, as a stock observation.
 [[nodiscard]] mrpt::obs::CObservationImage::Ptr observation_from_image(const CameraImage& image);

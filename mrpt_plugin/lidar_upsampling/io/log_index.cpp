@@ -62,43 +62,28 @@ double median_period(const std::vector<Stamp>& stamps) {
   return median(std::move(periods));
 }
 
-class Indexer {
- public:
-  void add(const mrpt::serialization::CSerializable& object) {
-    ++index_.num_objects;
-    if (const auto* const observation = dynamic_cast<const CObservation*>(&object)) {
-      add_observation(*observation);
-    } else if (const auto* const actions =
-                   dynamic_cast<const mrpt::obs::CActionCollection*>(&object)) {
-      index_.has_frames = true;
-      ego_.add_actions(*actions);
-    } else if (const auto* const frame = dynamic_cast<const mrpt::obs::CSensoryFrame*>(&object)) {
-      index_.has_frames = true;
-      ego_.add_frame(*frame);
-      for (const auto& observation_in_frame : *frame) add_observation(*observation_in_frame);
-    }
-  }
+void add_observation(const CObservation& observation, LogIndex& index, EgoSamples& ego) {
+  StreamInfo& stream = stream_of(observation, index.streams);
+  ++stream.count;
+  if (observation.timestamp == INVALID_TIMESTAMP) return;
+  stream.stamps.push_back(observation.timestamp);
+  ego.add_observation(observation);
+}
 
-  LogIndex result() {
-    for (StreamInfo& stream : index_.streams) stream.median_period_s = median_period(stream.stamps);
-    index_.poses = ego_.poses();
-    index_.odometry = ego_.odometry();
-    index_.gnss = ego_.gnss();
-    return std::move(index_);
+void add(const mrpt::serialization::CSerializable& object, LogIndex& index, EgoSamples& ego) {
+  ++index.num_objects;
+  if (const auto* const observation = dynamic_cast<const CObservation*>(&object)) {
+    add_observation(*observation, index, ego);
+  } else if (const auto* const actions =
+                 dynamic_cast<const mrpt::obs::CActionCollection*>(&object)) {
+    index.has_frames = true;
+    ego.add_actions(*actions);
+  } else if (const auto* const frame = dynamic_cast<const mrpt::obs::CSensoryFrame*>(&object)) {
+    index.has_frames = true;
+    ego.add_frame(*frame);
+    for (const auto& in_frame : *frame) add_observation(*in_frame, index, ego);
   }
-
- private:
-  void add_observation(const CObservation& observation) {
-    StreamInfo& stream = stream_of(observation, index_.streams);
-    ++stream.count;
-    if (observation.timestamp == INVALID_TIMESTAMP) return;
-    stream.stamps.push_back(observation.timestamp);
-    ego_.add_observation(observation);
-  }
-
-  LogIndex index_;
-  EgoSamples ego_;
-};
+}
 
 }  // namespace
 
@@ -127,22 +112,22 @@ std::vector<const StreamInfo*> LogIndex::of_kind(StreamKind kind) const {
 
 LogIndex index_log(const std::string& path, const std::function<void(double)>& progress) {
   RawlogReader reader(path);
-  Indexer indexer;
-  std::optional<std::string> corruption;
-  std::size_t num_objects = 0;
+  LogIndex index;
+  index.path = path;
+  EgoSamples ego;
   try {
     while (const auto entry = reader.next()) {
-      indexer.add(*entry->object);
-      ++num_objects;
+      add(*entry->object, index, ego);
       if (progress) progress(reader.progress());
     }
   } catch (const CorruptRawlog& error) {
-    if (num_objects == 0) throw;
-    corruption = error.what();
+    if (index.num_objects == 0) throw;
+    index.corruption = error.what();
   }
-  LogIndex index = indexer.result();
-  index.path = path;
-  index.corruption = corruption;
+  for (StreamInfo& stream : index.streams) stream.median_period_s = median_period(stream.stamps);
+  index.poses = ego.poses();
+  index.odometry = ego.odometry();
+  index.gnss = ego.gnss();
   return index;
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the lidar_upsampling authors
-#include "lidar_upsampling/io/range_scan_3d.h"
+#include "lidar_upsampling/io/scan_classes.h"
 
 #include <algorithm>
 #include <cmath>
@@ -41,6 +41,13 @@ void number_within_rings(Cells& cells) {
   cells.columns = *std::max_element(count.begin(), count.end());
 }
 
+void number_row_by_row(int size, Cells& cells) {
+  for (int i = 0; i < size; ++i) {
+    cells.row.push_back(static_cast<std::uint16_t>(i / cells.columns));
+    cells.column.push_back(static_cast<std::uint16_t>(i % cells.columns));
+  }
+}
+
 Cells cells_of(const LidarScan& scan) {
   Cells cells;
   const std::size_t n = scan.size();
@@ -49,10 +56,7 @@ Cells cells_of(const LidarScan& scan) {
     cells.layout = kList;
     cells.columns = static_cast<int>(std::ceil(std::sqrt(static_cast<double>(n))));
     cells.rows = (static_cast<int>(n) + cells.columns - 1) / cells.columns;
-    for (int i = 0; i < static_cast<int>(n); ++i) {
-      cells.row.push_back(static_cast<std::uint16_t>(i / cells.columns));
-      cells.column.push_back(static_cast<std::uint16_t>(i % cells.columns));
-    }
+    number_row_by_row(static_cast<int>(n), cells);
     return cells;
   }
   cells.rows = size_from(scan.ring, scan.num_rings);
@@ -155,18 +159,12 @@ void read_range_picture(const CObservation3DRangeScan& observation, LidarScan& s
   cells.columns = static_cast<int>(ranges.cols());
   const auto& directions = observation.get_unproj_lut();
   const cv::Mat gray = gray_of_cells(observation, cells);
-  for (int row = 0; row < cells.rows; ++row) {
-    cells.row.assign(static_cast<std::size_t>(cells.columns), static_cast<std::uint16_t>(row));
-    cells.column.resize(static_cast<std::size_t>(cells.columns));
-    for (int column = 0; column < cells.columns; ++column) {
-      const auto at = static_cast<std::size_t>(column);
-      const auto pixel = static_cast<std::size_t>(row) * cells.column.size() + at;
-      const float range = static_cast<float>(ranges(row, column)) * observation.rangeUnits;
-      cells.column[at] = static_cast<std::uint16_t>(column);
-      const Eigen::Vector3f direction(directions.Kxs[pixel], directions.Kys[pixel],
-                                      directions.Kzs[pixel]);
-      append_point(range * direction, cells, gray, at, scan);
-    }
+  number_row_by_row(cells.rows * cells.columns, cells);
+  for (std::size_t i = 0; i < cells.row.size(); ++i) {
+    const float range =
+        static_cast<float>(ranges(cells.row[i], cells.column[i])) * observation.rangeUnits;
+    const Eigen::Vector3f direction(directions.Kxs[i], directions.Kys[i], directions.Kzs[i]);
+    append_point(range * direction, cells, gray, i, scan);
   }
   scan.num_rings = cells.rows;
   scan.num_columns = cells.columns;

@@ -6,13 +6,12 @@
 #include <mrpt/io/lazy_load_path.h>
 #include <mrpt/maps/registerAllClasses.h>
 #include <mrpt/obs/registerAllClasses.h>
-#include <mrpt/serialization/CArchive.h>
 #include <unistd.h>
 
 #include <cstdio>
 #include <filesystem>
+#include <system_error>
 
-#include "lidar_upsampling/io/external_storage.h"
 #include "lidar_upsampling/io/gzip_file.h"
 #include "lidar_upsampling/text.h"
 
@@ -41,99 +40,95 @@ std::string explain(const std::exception& error) {
 }
 
 // MRPT stores colour pictures as JPEG unless told otherwise: what we write shall lose nothing.
-class LosslessImages {
- public:
-  LosslessImages() { mrpt::img::CImage::DISABLE_JPEG_COMPRESSION(true); }
-  ~LosslessImages() { mrpt::img::CImage::DISABLE_JPEG_COMPRESSION(before_); }
-  LosslessImages(const LosslessImages&) = delete;
-  LosslessImages& operator=(const LosslessImages&) = delete;
-
- private:
-  bool before_ = mrpt::img::CImage::DISABLE_JPEG_COMPRESSION();
-};
+std::vector<std::uint8_t> bytes_of(const mrpt::serialization::CSerializable& object) {
+  const bool before = mrpt::img::CImage::DISABLE_JPEG_COMPRESSION();
+  mrpt::img::CImage::DISABLE_JPEG_COMPRESSION(true);
+  std::vector<std::uint8_t> bytes;
+  mrpt::serialization::ObjectToOctetVector(&object, bytes);
+  mrpt::img::CImage::DISABLE_JPEG_COMPRESSION(before);
+  return bytes;
+}
 
 }  // namespace
 
-struct RawlogReader::Impl {
-  explicit Impl(const std::string& path_)
-      : path(path_), external_storage(external_storage_of(path_)), stream(path_) {}
-
-  [[noreturn]] void fail(const std::string& reason) {
-    failed = true;
-    const std::string start =
-        num_good == 0 ? path + " is no rawlog that can be read"
-                      : path + ": broken after " + std::to_string(num_good) + " good objects";
-    throw CorruptRawlog(start + ", at byte " + std::to_string(stream.getPosition()) +
-                        " of the uncompressed data: " + reason);
+std::string external_storage_of(const std::string& rawlog_path) {
+  // Not CRawlog::detectImagesDirectory(): MRPT before 2.8.0 drops the file's stem there.
+  const fs::path absolute = fs::absolute(rawlog_path);
+  const fs::path stem = absolute.parent_path() / absolute.stem();
+  for (const char* const ending : {"_Images", "_images", "_IMAGES"}) {
+    std::error_code ignored;
+    if (fs::is_directory(stem.string() + ending, ignored)) return stem.string() + ending;
   }
-
-  void announce_external_storage() const {
-    if (mrpt::io::getLazyLoadPathBase() == external_storage) return;
-    mrpt::io::setLazyLoadPathBase(external_storage);  // of CImage too, since MRPT 2.3.3
-  }
-
-  std::string path;
-  std::string external_storage;
-  RecordingGzipReader stream;
-  mrpt::serialization::CArchive::UniquePtr archive;
-  std::size_t num_good = 0;
-  bool failed = false;
-};
-
-RawlogReader::RawlogReader(const std::string& path) : impl_(std::make_unique<Impl>(path)) {
-  register_stock_classes();
-  impl_->archive = mrpt::serialization::archiveUniquePtrFrom<mrpt::io::CStream>(impl_->stream);
-  impl_->announce_external_storage();
+  return stem.string() + "_Images";
 }
+
+bool share_external_storage(const std::string& source_rawlog, const std::string& target_rawlog) {
+  const fs::path source = external_storage_of(source_rawlog);
+  std::error_code ignored;
+  if (!fs::is_directory(source, ignored)) return true;
+  const fs::path target = external_storage_of(target_rawlog);
+  if (fs::equivalent(source, target, ignored)) return true;
+  if (fs::is_symlink(target, ignored) && !fs::exists(target, ignored)) fs::remove(target, ignored);
+  if (fs::exists(target, ignored)) return false;
+  std::error_code error;
+  fs::create_directory_symlink(fs::relative(source, fs::canonical(target.parent_path())), target,
+                               error);
+  return !error;
+}
+
+RawlogReader::RawlogReader(const std::string& path)
+    : path_(path),
+      external_storage_(external_storage_of(path)),
+      stream_(std::make_unique<RecordingGzipReader>(path)),
+      archive_(mrpt::serialization::archiveUniquePtrFrom<mrpt::io::CStream>(*stream_)) {
+  register_stock_classes();
+  announce_external_storage();
+}
+
 RawlogReader::~RawlogReader() = default;
 RawlogReader::RawlogReader(RawlogReader&&) noexcept = default;
 
+void RawlogReader::announce_external_storage() const {
+  if (mrpt::io::getLazyLoadPathBase() == external_storage_) return;
+  mrpt::io::setLazyLoadPathBase(external_storage_);  // of CImage too, since MRPT 2.3.3
+}
+
+void RawlogReader::fail(const std::string& reason) {
+  has_failed_ = true;
+  const std::string start =
+      num_good_ == 0 ? path_ + " is no rawlog that can be read"
+                     : path_ + ": broken after " + std::to_string(num_good_) + " good objects";
+  throw CorruptRawlog(start + ", at byte " + std::to_string(stream_->getPosition()) +
+                      " of the uncompressed data: " + reason);
+}
+
 std::optional<RawlogEntry> RawlogReader::next() {
-  Impl& log = *impl_;
-  if (log.failed) return std::nullopt;
-  log.announce_external_storage();
-  if (log.stream.at_end()) {
-    if (const auto defect = log.stream.defect()) log.fail(*defect);
-    if (log.num_good == 0) log.fail("it is empty");
+  if (has_failed_) return std::nullopt;
+  announce_external_storage();
+  if (stream_->at_end()) {
+    if (const auto defect = stream_->defect()) fail(*defect);
+    if (num_good_ == 0) fail("it is empty");
     return std::nullopt;
   }
   RawlogEntry entry;
   try {
-    entry.object = log.archive->ReadObject();
+    entry.object = archive_->ReadObject();
   } catch (const std::exception& error) {
-    if (const auto defect = log.stream.defect()) log.fail(*defect);
-    if (log.stream.at_end()) log.fail("the file ends in the middle of an object");
-    log.fail(explain(error));
+    if (const auto defect = stream_->defect()) fail(*defect);
+    if (stream_->at_end()) fail("the file ends in the middle of an object");
+    fail(explain(error));
   }
-  if (!entry.object) log.fail("an empty object");
-  entry.bytes = log.stream.take_record();
-  ++log.num_good;
+  if (!entry.object) fail("an empty object");
+  entry.bytes = stream_->take_record();
+  ++num_good_;
   return entry;
 }
 
-double RawlogReader::progress() const { return impl_->stream.progress(); }
+double RawlogReader::progress() const { return stream_->progress(); }
 
 RawlogEntry entry_of(const mrpt::serialization::CSerializable::Ptr& object) {
-  const LosslessImages guard;
-  RawlogEntry entry{object, {}};
-  mrpt::serialization::ObjectToOctetVector(object.get(), entry.bytes);
-  return entry;
+  return {object, bytes_of(*object)};
 }
-
-struct RawlogWriter::Impl {
-  Impl(std::string final_path, bool overwrite_, int compression)
-      : path(std::move(final_path)),
-        temporary_path(path + ".tmp-" + std::to_string(getpid())),
-        overwrite(overwrite_),
-        file(temporary_path, compression) {}
-
-  std::string path;
-  std::string temporary_path;
-  bool overwrite;
-  GzipWriter file;
-  std::size_t num_written = 0;
-  bool committed = false;
-};
 
 namespace {
 
@@ -156,32 +151,29 @@ std::string checked_output_path(const std::string& path, bool overwrite) {
 }  // namespace
 
 RawlogWriter::RawlogWriter(const std::string& path, bool overwrite, int compression)
-    : impl_(std::make_unique<Impl>(checked_output_path(path, overwrite), overwrite, compression)) {}
+    : path_(checked_output_path(path, overwrite)),
+      temporary_path_(path_ + ".tmp-" + std::to_string(getpid())),
+      overwrite_(overwrite),
+      file_(std::make_unique<GzipWriter>(temporary_path_, compression)) {}
 
 RawlogWriter::~RawlogWriter() {
-  if (!impl_->committed) std::remove(impl_->temporary_path.c_str());
+  if (!is_committed_) std::remove(temporary_path_.c_str());
 }
 
 void RawlogWriter::write(const mrpt::serialization::CSerializable& object) {
-  const LosslessImages guard;
-  std::vector<std::uint8_t> bytes;
-  mrpt::serialization::ObjectToOctetVector(&object, bytes);
-  impl_->file.write(bytes);
-  ++impl_->num_written;
+  write(RawlogEntry{nullptr, bytes_of(object)});
 }
 
 void RawlogWriter::write(const RawlogEntry& entry) {
-  impl_->file.write(entry.bytes);
-  ++impl_->num_written;
+  file_->write(entry.bytes);
+  ++num_written_;
 }
 
 void RawlogWriter::commit() {
-  impl_->file.close();
-  refuse_existing(impl_->path, impl_->overwrite);
-  fs::rename(impl_->temporary_path, impl_->path);
-  impl_->committed = true;
+  file_->close();
+  refuse_existing(path_, overwrite_);
+  fs::rename(temporary_path_, path_);
+  is_committed_ = true;
 }
-
-std::size_t RawlogWriter::num_written() const { return impl_->num_written; }
 
 }  // namespace lidar_upsampling

@@ -2,7 +2,7 @@
 // Copyright (c) 2026, the lidar_upsampling authors
 #pragma once
 
-#include <mrpt/serialization/CSerializable.h>
+#include <mrpt/serialization/CArchive.h>
 
 #include <cstdint>
 #include <memory>
@@ -12,6 +12,9 @@
 #include <vector>
 
 namespace lidar_upsampling {
+
+class GzipWriter;
+class RecordingGzipReader;
 
 /// One object of a log, with the very bytes it was read from.
 struct RawlogEntry {
@@ -27,9 +30,21 @@ struct CorruptRawlog : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// @brief The folder of a log's externally stored images and scans: `<stem>_Images`,
+/// `<stem>_images` or `<stem>_IMAGES` beside it, the first that is there; the first of them if none
+/// is.
+[[nodiscard]] std::string external_storage_of(const std::string& rawlog_path);
+
+/// @brief Lets a log written from another one find the same external files, through a symbolic link
+/// beside it, as MRPT derives the folder's name from the log's.
+/// Does nothing if the source has no such folder, or both logs share it already.
+/// @return false if something else lies under the name that the link needs.
+[[nodiscard]] bool share_external_storage(const std::string& source_rawlog,
+                                          const std::string& target_rawlog);
+
 /// @brief Streams a rawlog (plain or gzip) object by object, and tells a clean end from a broken
 /// one. Also tells MRPT where the externally stored images and scans of the log lie (see
-/// external_storage.h). MRPT has one such path per process: load the external files of an object
+/// external_storage_of). MRPT has one such path per process: load the external files of an object
 /// before another reader is asked for its next one.
 class RawlogReader {
  public:
@@ -49,8 +64,14 @@ class RawlogReader {
   [[nodiscard]] double progress() const;
 
  private:
-  struct Impl;
-  std::unique_ptr<Impl> impl_;
+  void announce_external_storage() const;
+  [[noreturn]] void fail(const std::string& reason);
+
+  std::string path_, external_storage_;
+  std::unique_ptr<RecordingGzipReader> stream_;
+  std::unique_ptr<mrpt::serialization::CArchive> archive_;
+  std::size_t num_good_ = 0;
+  bool has_failed_ = false;
 };
 
 /// @brief Writes a gzip rawlog under a temporary name beside `path`; it gets its own name on
@@ -73,11 +94,14 @@ class RawlogWriter {
   /// @throw std::runtime_error a write error, or `path` has come up in the meantime.
   void commit();
 
-  [[nodiscard]] std::size_t num_written() const;
+  [[nodiscard]] std::size_t num_written() const { return num_written_; }
 
  private:
-  struct Impl;
-  std::unique_ptr<Impl> impl_;
+  std::string path_, temporary_path_;
+  bool overwrite_;
+  std::unique_ptr<GzipWriter> file_;
+  std::size_t num_written_ = 0;
+  bool is_committed_ = false;
 };
 
 }  // namespace lidar_upsampling

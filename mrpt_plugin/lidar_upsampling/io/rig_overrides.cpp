@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "lidar_upsampling/io/images.h"
+#include "lidar_upsampling/text.h"
 #include "lidar_upsampling/units.h"
 
 namespace lidar_upsampling {
@@ -71,30 +72,25 @@ struct Setting {
 };
 
 void set(const Setting& setting, CameraOverride& camera) {
-  const std::string& key = setting.key;
-  if (key == "fx_px") {
-    camera.fx = setting.number();
-  } else if (key == "fy_px") {
-    camera.fy = setting.number();
-  } else if (key == "cx_px") {
-    camera.cx = setting.number();
-  } else if (key == "cy_px") {
-    camera.cy = setting.number();
-  } else if (key == "width_px") {
+  using Number = std::optional<double>;
+  const std::map<std::string, Number*> numbers{
+      {"fx_px", &camera.fx}, {"fy_px", &camera.fy}, {"cx_px", &camera.cx}, {"cy_px", &camera.cy}};
+  if (const auto found = numbers.find(setting.key); found != numbers.end())
+    *found->second = setting.number();
+  else if (setting.key == "width_px")
     camera.width = setting.size_px();
-  } else if (key == "height_px") {
+  else if (setting.key == "height_px")
     camera.height = setting.size_px();
-  } else if (key == "distortion_model") {
+  else if (setting.key == "distortion_model")
     camera.distortion_model = setting.distortion_model();
-  } else if (key == "distortion") {
+  else if (setting.key == "distortion")
     camera.distortion = setting.distortion();
-  } else if (key == "pose") {
+  else if (setting.key == "pose")
     camera.T_vehicle_camera = setting.pose();
-  } else {
+  else
     setting.fail(
         "no such key; there are fx_px, fy_px, cx_px, cy_px, width_px, height_px, distortion_model, "
         "distortion, pose");
-  }
 }
 
 std::vector<Setting> settings_of(const CConfigFileBase& config, const std::string& section) {
@@ -102,17 +98,11 @@ std::vector<Setting> settings_of(const CConfigFileBase& config, const std::strin
   config.getAllKeys(section, keys);
   std::vector<Setting> settings;
   for (const std::string& key : keys) {
-    std::string value = config.read_string(section, key, "");
-    value = value.substr(0, value.find(';'));  // MRPT leaves comments in
-    value.erase(value.find_last_not_of(" \t\r") + 1);
-    settings.push_back({section, key, value});
+    const std::string value = config.read_string(section, key, "");
+    // MRPT leaves comments in.
+    settings.push_back({section, key, trimmed(value.substr(0, value.find(';')))});
   }
   return settings;
-}
-
-template <typename T>
-void replace(T& value, const std::optional<T>& by) {
-  if (by) value = *by;
 }
 
 }  // namespace
@@ -144,15 +134,15 @@ void apply(const RigOverrides& overrides, Camera& camera) {
   CameraModel& model = camera.model;
   const int width = model.width;
   const int height = model.height;
-  replace(model.fx, given.fx);
-  replace(model.fy, given.fy);
-  replace(model.cx, given.cx);
-  replace(model.cy, given.cy);
-  replace(model.width, given.width);
-  replace(model.height, given.height);
-  replace(model.distortion_model, given.distortion_model);
-  replace(model.distortion, given.distortion);
-  replace(camera.T_vehicle_camera, given.T_vehicle_camera);
+  model.fx = given.fx.value_or(model.fx);
+  model.fy = given.fy.value_or(model.fy);
+  model.cx = given.cx.value_or(model.cx);
+  model.cy = given.cy.value_or(model.cy);
+  model.width = given.width.value_or(model.width);
+  model.height = given.height.value_or(model.height);
+  model.distortion_model = given.distortion_model.value_or(model.distortion_model);
+  model.distortion = given.distortion.value_or(model.distortion);
+  camera.T_vehicle_camera = given.T_vehicle_camera.value_or(camera.T_vehicle_camera);
   if (width > 0 && height > 0) model = scaled(model, width, height);
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the lidar_upsampling authors
-#include "lidar_upsampling/io/spinning_scans.h"
+#include "lidar_upsampling/io/scan_classes.h"
 
 #include <algorithm>
 #include <cmath>
@@ -29,43 +29,20 @@ std::vector<std::uint16_t> ring_of_laser(const VelodyneCalibration& calibration)
   return ring;
 }
 
-// Gives the points of raw packets to a scan.
-class ScanFiller : public CObservationVelodyneScan::PointCloudStorageWrapper {
- public:
-  ScanFiller(const VelodyneCalibration& calibration, LidarScan& scan)
-      : ring_(ring_of_laser(calibration)), scan_(scan) {}
-  virtual ~ScanFiller() = default;
-
-  void add_point(float x, float y, float z, uint8_t intensity,
-                 const mrpt::system::TTimeStamp& stamp, const float /*azimuth*/,
-                 uint16_t laser) override {
-    const Eigen::Vector3f point(x, y, z);
-    if (!point.allFinite() || point.isZero(0.F)) return;
-    scan_.points.push_back(point);
-    scan_.intensity.push_back(static_cast<float>(intensity) / 255.F);
-    scan_.time_s.push_back(static_cast<float>(seconds_between(scan_.stamp, stamp)));
-    scan_.ring.push_back(laser < ring_.size() ? ring_[laser] : laser);
-  }
-
- private:
-  std::vector<std::uint16_t> ring_;
-  LidarScan& scan_;
-};
-
 const VelodyneCalibration& default_calibration(const std::string& model) {
   return VelodyneCalibration::LoadDefaultCalibration(model);
 }
 
-void read_packets(CObservationVelodyneScan& observation, LidarScan& scan) {
-  const VelodyneCalibration own = observation.calibration;
-  if (own.empty()) {
+// With the points that its raw packets tell.
+CObservationVelodyneScan unpacked(CObservationVelodyneScan observation) {
+  if (observation.calibration.empty()) {
     const int model = observation.scan_packets.front().velodyne_model_ID;
     observation.calibration = default_calibration(model == 0x22 ? "VLP16" : "HDL32");
   }
-  ScanFiller filler(observation.calibration, scan);
-  scan.num_rings = static_cast<int>(observation.calibration.laser_corrections.size());
-  observation.generatePointCloud(filler);
-  observation.calibration = own;
+  CObservationVelodyneScan::TGeneratePointCloudParameters options;
+  options.generatePerPointTimestamp = true;
+  observation.generatePointCloud(options);
+  return observation;
 }
 
 void read_points(const CObservationVelodyneScan& observation, LidarScan& scan) {
@@ -145,12 +122,9 @@ CObservationVelodyneScan::Ptr make_velodyne_scan(const LidarScan& scan) {
   return observation;
 }
 
-void read_velodyne_scan(CObservationVelodyneScan& observation, LidarScan& scan) {
-  if (observation.point_cloud.size() > 0) {
-    read_points(observation, scan);
-  } else if (!observation.scan_packets.empty()) {
-    read_packets(observation, scan);
-  }
+void read_velodyne_scan(const CObservationVelodyneScan& observation, LidarScan& scan) {
+  const bool is_packed = observation.point_cloud.size() == 0 && !observation.scan_packets.empty();
+  read_points(is_packed ? unpacked(observation) : observation, scan);
 }
 
 void read_rotating_scan(const CObservationRotatingScan& observation, LidarScan& scan) {
