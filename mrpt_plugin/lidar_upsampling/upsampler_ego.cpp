@@ -31,10 +31,7 @@ std::optional<EgoStep> LidarUpsampler::given_step(const LidarScan& scan, Stamp i
 EgoStep LidarUpsampler::steady_step(Stamp instant) const {
   const double dt = seconds_between(key_->scan.stamp, instant);
   const CameraEgoOptions options = camera_ego_options(std::abs(dt));
-  Twist sigmas;
-  sigmas << options.tilt_sigma_rad, options.tilt_sigma_rad, options.yaw_sigma_rad,
-      options.forward_sigma_m, options.sideways_sigma_m, options.vertical_sigma_m;
-  return {exp_se3(Twist(steady_motion().rate * dt)), true, sigmas.cwiseAbs2().asDiagonal()};
+  return {exp_se3(Twist(steady_motion().rate * dt)), true, options.sigmas.cwiseAbs2().asDiagonal()};
 }
 
 // Until the next scan, where that is known; else as since the scan before.
@@ -51,7 +48,7 @@ EgoStep LidarUpsampler::ego_step(Stamp instant) const {
 // How far a constant velocity may lead astray: far if it is only hoped for, little if it was
 // measured between the last two scans.
 CameraEgoOptions LidarUpsampler::camera_ego_options(double dt) const {
-  constexpr double kForward = 2.5, kSideways = 1, kTurn = 0.5;  // m/s^2, m/s^2, rad/s^2
+  constexpr double kForward = 2.5, kSideways = 1, kTurning = 0.5;  // m/s^2, m/s^2, rad/s^2
   CameraEgoOptions options = config_.camera_ego;
   if (!steady_motion().is_measured) return options;
   const bool is_between = !to_come_.empty();
@@ -60,9 +57,8 @@ CameraEgoOptions LidarUpsampler::camera_ego_options(double dt) const {
   const double reach = 0.5 * (is_between ? std::abs(to_end) : scan_period_s_ + dt) * dt;
   options.trust_guess = true;
   options.pose.min_inlier_ratio = std::min(0.1, options.pose.min_inlier_ratio);
-  options.forward_sigma_m = 0.01 + kForward * reach;
-  options.sideways_sigma_m = 0.01 + kSideways * reach;
-  options.yaw_sigma_rad = 0.002 + kTurn * reach;
+  options.sigmas.segment<3>(2) << 0.002 + kTurning * reach, 0.01 + kForward * reach,
+      0.01 + kSideways * reach;
   return options;
 }
 
@@ -79,8 +75,8 @@ EgoStep LidarUpsampler::camera_step(const CameraView& view, const Picture& pictu
       estimate_camera_ego(correspondences_of(view.points, kStaticOwner), view.camera.model,
                           T_camera_lidar, options, predicted.T_to_from);
   if (!step) return predicted;
-  if (!steady_motion().is_measured) steady_motion().rate = log_se3(step->T_lidar_t_lidar_k) / dt;
-  return {step->T_lidar_t_lidar_k, false, step->covariance};
+  if (!steady_motion().is_measured) steady_motion().rate = log_se3(step->T_to_from) / dt;
+  return *step;
 }
 
 // All but those of road users that are not known to be parked: what moves along with us, or alone

@@ -171,11 +171,5 @@ TEST(EgoMotion, names_of_sources_are_those_of_the_settings) {
   EXPECT_STREQ(to_string(EgoSource::none), "none");
 }
 
-TEST(EgoMotion, senseless_limits_are_refused) {
-  EgoMotionOptions options;
-  options.max_interpolation_gap_s = 0;
-  EXPECT_THROW(EgoMotion{options}, std::invalid_argument);
-}
-
 }  // namespace
 }  // namespace lidar_upsampling

@@ -7,7 +7,7 @@
 #include <fstream>
 
 #include "io/test_folder.h"
-#include "lidar_upsampling/stamp_text.h"
+#include "lidar_upsampling/types.h"
 
 namespace lidar_upsampling {
 namespace {

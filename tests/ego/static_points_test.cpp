@@ -66,13 +66,5 @@ TEST(StaticPoints, prefer_texture) {
                           [&](int i) { return points[i].u == 302 && points[i].v == 50; }));
 }
 
-TEST(StaticPoints, flags_of_another_length_are_refused) {
-  const auto points = dense_points();
-  const std::vector<std::uint8_t> none(points.size(), 0), flags(3, 0);
-  EXPECT_THROW(static_cast<void>(
-                   choose_static_points({points, flags, none, {kWidth, kHeight}, even_texture()})),
-               std::invalid_argument);
-}
-
 }  // namespace
 }  // namespace lidar_upsampling

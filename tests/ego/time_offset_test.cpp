@@ -125,12 +125,5 @@ TEST(TimeOffset, a_crawling_vehicle_is_less_certain_than_a_fast_one) {
   EXPECT_FALSE(estimate_time_offset(std::vector<OffsetScores>(20, peak)));
 }
 
-TEST(TimeOffset, scores_of_other_options_are_refused) {
-  EXPECT_THROW((void)estimate_time_offset({OffsetScores{{1, 2, 3}, 10}}), std::invalid_argument);
-  TimeOffsetOptions options;
-  options.step_s = 0;
-  EXPECT_THROW((void)estimate_time_offset({}, options), std::invalid_argument);
-}
-
 }  // namespace
 }  // namespace lidar_upsampling

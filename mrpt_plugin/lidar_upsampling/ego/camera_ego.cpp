@@ -6,10 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <optional>
-#include <stdexcept>
-#include <string>
-#include <vector>
 
 #include "lidar_upsampling/vision/refine_pose.h"
 
@@ -78,17 +74,6 @@ std::optional<AbsolutePose> refine_likeliest_pose(
 // Points that may better a guess whose covariance is known: three would tell a pose, twice.
 constexpr int kEnoughBesideGuess = 6;
 
-void check_options(const CameraEgoOptions& options) {
-  for (const double sigma :
-       {options.forward_sigma_m, options.sideways_sigma_m, options.vertical_sigma_m,
-        options.tilt_sigma_rad, options.yaw_sigma_rad, options.max_step_m, options.max_turn_rad}) {
-    if (!(sigma > 0)) {
-      throw std::invalid_argument("camera ego-motion: sigmas and limits must be positive, one is " +
-                                  std::to_string(sigma));
-    }
-  }
-}
-
 /// Takes a left increment (w, t) in the camera frame to the lidar frame's, to first order.
 Matrix6d lidar_from_camera_increment(const Pose& T_camera_lidar) {
   const Eigen::Matrix3d R_lidar_camera = T_camera_lidar.linear().transpose();
@@ -111,23 +96,20 @@ Matrix6d sqrt_information_of(const Matrix6d& covariance) {
 
 PosePrior vehicle_prior(const Pose& T_camera_lidar, const Pose& guess,
                         const CameraEgoOptions& options) {
-  Twist sigmas;
-  sigmas << options.tilt_sigma_rad, options.tilt_sigma_rad, options.yaw_sigma_rad,
-      options.forward_sigma_m, options.sideways_sigma_m, options.vertical_sigma_m;
   PosePrior prior;
   prior.T_mean = T_camera_lidar * guess;
-  const Matrix6d weights = options.guess_covariance ? sqrt_information_of(*options.guess_covariance)
-                                                    : Matrix6d(sigmas.cwiseInverse().asDiagonal());
+  const Matrix6d weights = options.guess_covariance
+                               ? sqrt_information_of(*options.guess_covariance)
+                               : Matrix6d(options.sigmas.cwiseInverse().asDiagonal());
   prior.sqrt_information = weights * lidar_from_camera_increment(T_camera_lidar);
   return prior;
 }
 
 }  // namespace
 
-std::optional<CameraEgo> estimate_camera_ego(const std::vector<Correspondence>& correspondences,
-                                             const CameraModel& model, const Pose& T_camera_lidar,
-                                             const CameraEgoOptions& options, const Pose& guess) {
-  check_options(options);
+std::optional<EgoStep> estimate_camera_ego(const std::vector<Correspondence>& correspondences,
+                                           const CameraModel& model, const Pose& T_camera_lidar,
+                                           const CameraEgoOptions& options, const Pose& guess) {
   const int enough = options.guess_covariance ? kEnoughBesideGuess : options.min_correspondences;
   if (static_cast<int>(correspondences.size()) < enough) return std::nullopt;
   std::vector<Pose> starts{T_camera_lidar * guess};
@@ -144,16 +126,14 @@ std::optional<CameraEgo> estimate_camera_ego(const std::vector<Correspondence>& 
           options.pose.min_inlier_ratio * static_cast<double>(correspondences.size())) {
     return std::nullopt;
   }
-  CameraEgo ego;
-  ego.T_lidar_t_lidar_k = T_camera_lidar.inverse() * refined->T_camera_source;
-  const Pose off_guess = ego.T_lidar_t_lidar_k * guess.inverse();
+  const Pose step = T_camera_lidar.inverse() * refined->T_camera_source;
+  const Pose off_guess = step * guess.inverse();
   if (off_guess.translation().norm() > options.max_step_m ||
-      rotation_angle(off_guess) > options.max_turn_rad) {
+      rotation_angle(off_guess) > options.max_turn_rad)
     return std::nullopt;
-  }
-  ego.num_inliers = refined->num_inliers;
-  ego.rmse_px = refined->rmse_px;
   const Matrix6d J = lidar_from_camera_increment(T_camera_lidar);
+  EgoStep ego;
+  ego.T_to_from = step;
   ego.covariance = J * refined->covariance * J.transpose();
   return ego;
 }

@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "lidar_upsampling/ego/ego_motion.h"
 #include "lidar_upsampling/se3.h"
 #include "lidar_upsampling/types.h"
 #include "lidar_upsampling/vision/absolute_pose.h"
@@ -17,26 +18,14 @@ struct CameraEgoOptions {
   CameraEgoOptions() { pose.points_per_observation = 4; }
 
   AbsolutePoseOptions pose;
-  /// Of the guess, as CameraEgo::covariance has it, where it is known: in place of the sigmas.
+  /// Of the guess, as EgoStep::covariance, where it is known: in place of the sigmas.
   std::optional<Matrix6d> guess_covariance;
   bool trust_guess = false;  ///< whether other consensus than near the guess is out of the question
-  double forward_sigma_m = 0.3;
-  double sideways_sigma_m = 0.05;
-  double vertical_sigma_m = 0.02;
-  double tilt_sigma_rad = 0.005;  ///< roll and pitch
-  double yaw_sigma_rad = 0.03;
+  /// Roll, pitch, yaw (rad), forward, sideways, up (m).
+  Twist sigmas = (Twist() << 0.005, 0.005, 0.03, 0.3, 0.05, 0.02).finished();
   int min_correspondences = 20;
   double max_step_m = 10;  ///< from the guess; further is no motion of a vehicle
   double max_turn_rad = 0.3;
-};
-
-/// The vehicle's motion as the static scene shows it.
-struct CameraEgo {
-  Pose T_lidar_t_lidar_k = Pose::Identity();
-  int num_inliers = 0;
-  double rmse_px = 0;  ///< of the inliers
-  Matrix6d covariance =
-      Matrix6d::Zero();  ///< of a Twist applied on the left, in the lidar frame at t
 };
 
 /// @brief Ego-motion from static points of the key scan and their pixels on image t: P3P in MLESAC,
@@ -44,9 +33,9 @@ struct CameraEgo {
 /// is to be trusted: a truck that fills half the picture would be taken for the world.
 /// @param correspondences points in the lidar frame at k, pixels as taken; up to half may be wrong.
 /// @param guess T_lidar_t_lidar_k, e.g. at constant velocity; the identity if nothing is known.
-/// @return none: too few, no consensus, or a motion that no vehicle makes.
-/// @throw std::invalid_argument options out of range, or as estimate_absolute_pose().
-[[nodiscard]] std::optional<CameraEgo> estimate_camera_ego(
+/// @return T_lidar_t_lidar_k; none: too few, no consensus, or a motion that no vehicle makes.
+/// @throw std::invalid_argument as estimate_absolute_pose().
+[[nodiscard]] std::optional<EgoStep> estimate_camera_ego(
     const std::vector<Correspondence>& correspondences, const CameraModel& model,
     const Pose& T_camera_lidar, const CameraEgoOptions& options, const Pose& guess);
 

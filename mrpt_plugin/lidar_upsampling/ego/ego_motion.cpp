@@ -3,21 +3,12 @@
 #include "lidar_upsampling/ego/ego_motion.h"
 
 #include <array>
-#include <stdexcept>
 
 namespace lidar_upsampling {
 
 namespace {
 
 InterpolationLimits limits_of(const EgoMotionOptions& options) {
-  if (options.max_interpolation_gap_s <= 0 || options.max_extrapolation_s < 0 ||
-      options.gnss_min_step_m <= 0) {
-    throw std::invalid_argument(
-        "ego-motion: max_interpolation_gap_s (" + std::to_string(options.max_interpolation_gap_s) +
-        ") and gnss_min_step_m (" + std::to_string(options.gnss_min_step_m) +
-        ") must be positive, max_extrapolation_s (" + std::to_string(options.max_extrapolation_s) +
-        ") must not be negative");
-  }
   return {options.max_interpolation_gap_s, options.max_extrapolation_s};
 }
 
@@ -29,9 +20,7 @@ EgoStep step_between(const TrajectoryPose& from, const TrajectoryPose& to) {
 std::optional<EgoStep> step_on(const Trajectory& trajectory, Stamp from, Stamp to) {
   const auto pose_from = trajectory.at(from);
   const auto pose_to = trajectory.at(to);
-  if (!pose_from || !pose_to) {
-    return std::nullopt;
-  }
+  if (!pose_from || !pose_to) return std::nullopt;
   return step_between(*pose_from, *pose_to);
 }
 
@@ -49,42 +38,21 @@ EgoMotion::EgoMotion(const EgoMotionOptions& options)
       odometry_(limits_of(options)),
       gnss_(limits_of(options), options.gnss_min_step_m) {}
 
-void EgoMotion::add_pose(const PoseSample& sample) { poses_.add(sample); }
-
-void EgoMotion::add_odometry(const PoseSample& sample) { odometry_.add(sample); }
-
-void EgoMotion::add_gnss(const GnssSample& sample) { gnss_.add(sample); }
-
 EgoSource EgoMotion::source() const {
-  if (options_.source != EgoSource::automatic) {
-    return options_.source;
-  }
-  if (poses_.size() >= 2) {
-    return EgoSource::poses;
-  }
-  if (odometry_.size() >= 2) {
-    return EgoSource::odometry;
-  }
+  if (options_.source != EgoSource::automatic) return options_.source;
+  if (poses_.size() >= 2) return EgoSource::poses;
+  if (odometry_.size() >= 2) return EgoSource::odometry;
   return gnss_.size() >= 2 ? EgoSource::gnss : EgoSource::camera;
 }
 
 std::optional<EgoStep> EgoMotion::step(Stamp from, Stamp to) const {
-  switch (source()) {
-    case EgoSource::poses:
-      return step_on(poses_, from, to);
-    case EgoSource::odometry:
-      return step_on(odometry_, from, to);
-    case EgoSource::gnss: {
-      const auto poses = gnss_.at(from, to);
-      return poses ? std::make_optional(step_between(poses->first, poses->second)) : std::nullopt;
-    }
-    case EgoSource::none:
-      return EgoStep{};
-    case EgoSource::automatic:
-    case EgoSource::camera:
-      break;
-  }
-  return std::nullopt;
+  const EgoSource used = source();
+  if (used == EgoSource::none) return EgoStep{};
+  if (used == EgoSource::poses) return step_on(poses_, from, to);
+  if (used == EgoSource::odometry) return step_on(odometry_, from, to);
+  if (used != EgoSource::gnss) return std::nullopt;
+  const auto poses = gnss_.at(from, to);
+  return poses ? std::make_optional(step_between(poses->first, poses->second)) : std::nullopt;
 }
 
 void EgoMotion::forget_before(Stamp stamp) {

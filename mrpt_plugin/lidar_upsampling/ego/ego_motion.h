@@ -3,8 +3,6 @@
 #pragma once
 
 #include <optional>
-#include <string>
-#include <vector>
 
 #include "lidar_upsampling/ego/gnss_track.h"
 #include "lidar_upsampling/ego/trajectory.h"
@@ -43,9 +41,9 @@ class EgoMotion {
 
   /// @throw std::invalid_argument, here and below: a number that is not finite, or a fix off the
   /// globe.
-  void add_pose(const PoseSample& sample);
-  void add_odometry(const PoseSample& sample);
-  void add_gnss(const GnssSample& sample);
+  void add_pose(const PoseSample& sample) { poses_.add(sample); }
+  void add_odometry(const PoseSample& sample) { odometry_.add(sample); }
+  void add_gnss(const GnssSample& sample) { gnss_.add(sample); }
 
   /// The source in use: the option's, or the best that has enough samples so far (two); `camera`
   /// when there is none.

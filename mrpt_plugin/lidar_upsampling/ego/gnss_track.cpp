@@ -5,7 +5,9 @@
 #include <GeographicLib/LocalCartesian.hpp>
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <stdexcept>
+#include <vector>
 
 namespace lidar_upsampling {
 
@@ -13,6 +15,20 @@ namespace {
 
 constexpr double kNoiseWindow = 5.0;  ///< s to either side, over which the scatter is judged
 constexpr double kMemory = 12.0;      ///< s; a fit's widest reach and the scatter's
+
+struct Course {
+  double heading, yaw_rate;
+};
+
+// Which way the vehicle's origin goes: an antenna ahead of it swings out in a turn.
+Course course_of(const Eigen::Vector3d& velocity, const Eigen::Vector3d& acceleration,
+                 const Eigen::Vector3d& antenna_in_vehicle) {
+  const double speed = std::max(1e-3, velocity.head<2>().norm());
+  const double yaw_rate =
+      (velocity.x() * acceleration.y() - velocity.y() * acceleration.x()) / (speed * speed);
+  const double slip = std::clamp(yaw_rate * antenna_in_vehicle.x() / speed, -0.9, 0.9);
+  return {std::atan2(velocity.y(), velocity.x()) - std::asin(slip), yaw_rate};
+}
 
 void check(const GnssSample& sample) {
   const bool sane = std::abs(sample.latitude_deg) <= 90 && std::abs(sample.longitude_deg) <= 540 &&
@@ -49,27 +65,22 @@ void GnssTrack::add(const GnssSample& sample) {
   world_->Forward(sample.latitude_deg, sample.longitude_deg, sample.height_m, position.x(),
                   position.y(), position.z());
   antenna_in_vehicle_ = sample.antenna_in_vehicle;
-  const auto place = std::lower_bound(stamps_.begin(), stamps_.end(), sample.stamp);
-  const auto index = place - stamps_.begin();
-  if (place != stamps_.end() && *place == sample.stamp) {
-    antenna_in_world_[index] = position;
-    return;
-  }
-  stamps_.insert(place, sample.stamp);
-  antenna_in_world_.insert(antenna_in_world_.begin() + index, position);
+  antenna_in_world_[sample.stamp] = position;
 }
 
 double GnssTrack::half_window(Stamp center) const {
-  const auto begin =
-      std::lower_bound(stamps_.begin(), stamps_.end(), shifted(center, -kNoiseWindow));
-  const auto end = std::upper_bound(begin, stamps_.end(), shifted(center, kNoiseWindow));
+  const auto& fixes = antenna_in_world_;
+  const auto begin = fixes.lower_bound(shifted(center, -kNoiseWindow));
+  const auto end = fixes.upper_bound(shifted(center, kNoiseWindow));
   std::vector<double> residuals;
-  for (auto i = begin - stamps_.begin() + 1; i + 1 < end - stamps_.begin(); ++i) {
-    const double share = seconds_between(stamps_[i - 1], stamps_[i]) /
-                         seconds_between(stamps_[i - 1], stamps_[i + 1]);
-    const Eigen::Vector3d middle =
-        (1 - share) * antenna_in_world_[i - 1] + share * antenna_in_world_[i + 1];
-    residuals.push_back((antenna_in_world_[i] - middle).head<2>().norm());
+  for (auto at = begin; at != end; ++at) {
+    const auto after = std::next(at);
+    if (at == begin || after == end) continue;
+    const auto before = std::prev(at);
+    const double share =
+        seconds_between(before->first, at->first) / seconds_between(before->first, after->first);
+    const Eigen::Vector3d middle = (1 - share) * before->second + share * after->second;
+    residuals.push_back((at->second - middle).head<2>().norm());
   }
   // Median of a Rayleigh variable; three fixes' noise goes into each residual.
   const double sigma =
@@ -80,39 +91,39 @@ double GnssTrack::half_window(Stamp center) const {
 
 GnssTrack::LocalFit GnssTrack::fit(Stamp center, double half_span, double half_window) const {
   const double reach = half_span + half_window;
-  auto begin = std::lower_bound(stamps_.begin(), stamps_.end(), shifted(center, -reach));
-  auto end = std::upper_bound(begin, stamps_.end(), shifted(center, reach));
-  while (end - begin < 3 && (begin != stamps_.begin() || end != stamps_.end())) {
-    begin -= begin != stamps_.begin() ? 1 : 0;
-    end += end != stamps_.end() ? 1 : 0;
+  const auto& fixes = antenna_in_world_;
+  auto begin = fixes.lower_bound(shifted(center, -reach));
+  auto end = fixes.upper_bound(shifted(center, reach));
+  while (std::distance(begin, end) < 3 && (begin != fixes.begin() || end != fixes.end())) {
+    if (begin != fixes.begin()) --begin;
+    if (end != fixes.end()) ++end;
   }
-  const int degree = end - begin < 4 ? 1 : 2;
+  const auto num_fixes = std::distance(begin, end);
+  const int degree = num_fixes < 4 ? 1 : 2;
   Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
   Eigen::Matrix3d moments = Eigen::Matrix3d::Zero();
-  std::vector<Eigen::Vector3d> rows;
   for (auto it = begin; it != end; ++it) {
-    const double t = seconds_between(center, *it);
+    const double t = seconds_between(center, it->first);
     const double beyond = std::max(0., std::abs(t) - half_span) / half_window;
     const double weight = std::max(0.02, 1 - beyond * beyond);
     const Eigen::Vector3d row(1, t, degree == 2 ? 0.5 * t * t : 0);
     normal += weight * row * row.transpose();
-    moments += weight * row * antenna_in_world_[it - stamps_.begin()].transpose();
+    moments += weight * row * it->second.transpose();
   }
-  if (degree == 1) {
-    normal(2, 2) = 1;
-  }
+  if (degree == 1) normal(2, 2) = 1;
   const Eigen::Matrix3d inverse = normal.inverse();
   const Eigen::Matrix3d solution = inverse * moments;
-  LocalFit result{center, *std::prev(end), solution.row(0), solution.row(1), solution.row(2)};
+  LocalFit result{center, std::prev(end)->first, solution.row(0), solution.row(1), solution.row(2)};
   double sum = 0;
   for (auto it = begin; it != end; ++it) {
-    const double t = seconds_between(center, *it);
+    const double t = seconds_between(center, it->first);
     const Eigen::Vector3d predicted =
         result.position + t * result.velocity + 0.5 * t * t * result.acceleration;
-    sum += (antenna_in_world_[it - stamps_.begin()] - predicted).head<2>().squaredNorm();
+    sum += (it->second - predicted).head<2>().squaredNorm();
   }
-  const double variance = sum / std::max<double>(1, 2. * (end - begin - degree - 1));
-  result.duration = seconds_between(*begin, *std::prev(end));
+  const double variance =
+      sum / std::max<double>(1, 2. * static_cast<double>(num_fixes - degree - 1));
+  result.duration = seconds_between(begin->first, result.last);
   result.velocity_sigma = std::sqrt(variance * std::max(0., inverse(1, 1)));
   const double speed = result.velocity.head<2>().norm();
   result.moving = speed * result.duration > min_step_m_ && speed > 4 * result.velocity_sigma;
@@ -124,33 +135,20 @@ std::optional<double> GnssTrack::course(Stamp center) const {
   const double narrow = half_window(center);
   for (const int widening : {1, 2, 4}) {
     const LocalFit local = fit(center, 0, widening * narrow);
-    if (local.moving) {
-      const double yaw_rate = (local.velocity.x() * local.acceleration.y() -
-                               local.velocity.y() * local.acceleration.x()) /
-                              local.velocity.head<2>().squaredNorm();
-      const double slip = yaw_rate * antenna_in_vehicle_.x() / local.velocity.head<2>().norm();
-      return std::atan2(local.velocity.y(), local.velocity.x()) -
-             std::asin(std::clamp(slip, -.9, .9));
-    }
+    if (local.moving)
+      return course_of(local.velocity, local.acceleration, antenna_in_vehicle_).heading;
   }
   return std::nullopt;
 }
 
 double GnssTrack::held_heading(Stamp stamp) const {
   const double stride = 0.5;
-  for (Stamp t = std::min(stamp, stamps_.back()); t >= stamps_.front(); t = shifted(t, -stride)) {
-    if (const auto heading = course(t)) {
-      return *heading;
-    }
-  }
-  if (forgotten_heading_) {
-    return *forgotten_heading_;
-  }
-  for (Stamp t = std::max(stamp, stamps_.front()); t <= stamps_.back(); t = shifted(t, stride)) {
-    if (const auto heading = course(t)) {
-      return *heading;
-    }
-  }
+  const Stamp first = antenna_in_world_.begin()->first, last = antenna_in_world_.rbegin()->first;
+  for (Stamp t = std::min(stamp, last); t >= first; t = shifted(t, -stride))
+    if (const auto heading = course(t)) return *heading;
+  if (forgotten_heading_) return *forgotten_heading_;
+  for (Stamp t = std::max(stamp, first); t <= last; t = shifted(t, stride))
+    if (const auto heading = course(t)) return *heading;
   return 0;
 }
 
@@ -163,12 +161,8 @@ Pose GnssTrack::pose_of(const LocalFit& local, Stamp stamp) const {
       local.position + t * local.velocity + 0.5 * t * t * local.acceleration + beyond * velocity;
   double heading = 0;
   if (local.moving) {
-    const double speed = std::max(1e-3, velocity.head<2>().norm());
-    const double yaw_rate =
-        (velocity.x() * local.acceleration.y() - velocity.y() * local.acceleration.x()) /
-        (speed * speed);
-    const double slip = std::clamp(yaw_rate * antenna_in_vehicle_.x() / speed, -0.9, 0.9);
-    heading = std::atan2(velocity.y(), velocity.x()) - std::asin(slip) + beyond * yaw_rate;
+    const Course there = course_of(velocity, local.acceleration, antenna_in_vehicle_);
+    heading = there.heading + beyond * there.yaw_rate;
   } else {
     heading = held_heading(local.center);
   }
@@ -179,43 +173,32 @@ Pose GnssTrack::pose_of(const LocalFit& local, Stamp stamp) const {
 }
 
 std::optional<std::pair<TrajectoryPose, TrajectoryPose>> GnssTrack::at(Stamp from, Stamp to) const {
-  const Reach reach_from = reach_of(stamps_, from, limits_);
-  const Reach reach_to = reach_of(stamps_, to, limits_);
-  if (stamps_.size() < 2 || reach_from == Reach::none || reach_to == Reach::none) {
+  const Reach reach_from = reach_of(antenna_in_world_, from, limits_);
+  const Reach reach_to = reach_of(antenna_in_world_, to, limits_);
+  if (size() < 2 || reach_from == Reach::none || reach_to == Reach::none) {
     return std::nullopt;
   }
   const double dt = seconds_between(from, to);
   const Stamp middle = shifted(from, 0.5 * dt);
   const double window = half_window(middle);
-  std::pair<TrajectoryPose, TrajectoryPose> poses;
-  if (std::abs(dt) <= 2 * window) {
-    // One fit for both ends: its error moves them together and leaves the step between them alone.
-    const LocalFit joint = fit(middle, 0.5 * std::abs(dt), window);
-    poses.first.T_world_vehicle = pose_of(joint, from);
-    poses.second.T_world_vehicle = pose_of(joint, to);
-  } else {
-    poses.first.T_world_vehicle = pose_of(fit(from, 0, window), from);
-    poses.second.T_world_vehicle = pose_of(fit(to, 0, window), to);
-  }
-  poses.first.extrapolated = reach_from == Reach::outside;
-  poses.second.extrapolated = reach_to == Reach::outside;
-  return poses;
+  // One fit for both ends: its error moves them together and leaves the step between them alone.
+  const bool is_joint = std::abs(dt) <= 2 * window;
+  const LocalFit at_from =
+      is_joint ? fit(middle, 0.5 * std::abs(dt), window) : fit(from, 0, window);
+  const LocalFit at_to = is_joint ? at_from : fit(to, 0, window);
+  return std::make_pair(TrajectoryPose{pose_of(at_from, from), reach_from == Reach::outside},
+                        TrajectoryPose{pose_of(at_to, to), reach_to == Reach::outside});
 }
 
 void GnssTrack::forget_before(Stamp stamp) {
-  const Stamp oldest = shifted(stamp, -kMemory);
-  const auto first = std::lower_bound(stamps_.begin(), stamps_.end(), oldest);
-  const auto keep = std::min<std::ptrdiff_t>(
-      first - stamps_.begin(),
-      std::max<std::ptrdiff_t>(0, static_cast<std::ptrdiff_t>(stamps_.size()) - 4));
-  if (keep <= 0) {
-    return;
-  }
-  if (const auto heading = course(stamps_[keep])) {
-    forgotten_heading_ = heading;
-  }
-  stamps_.erase(stamps_.begin(), stamps_.begin() + keep);
-  antenna_in_world_.erase(antenna_in_world_.begin(), antenna_in_world_.begin() + keep);
+  constexpr int kLast = 4;  // stay in any case
+  auto& fixes = antenna_in_world_;
+  if (fixes.size() <= kLast) return;
+  const Stamp oldest = std::min(shifted(stamp, -kMemory), std::prev(fixes.end(), kLast)->first);
+  const auto keep = fixes.lower_bound(oldest);
+  if (keep == fixes.begin()) return;
+  if (const auto heading = course(keep->first)) forgotten_heading_ = heading;
+  fixes.erase(fixes.begin(), keep);
 }
 
 }  // namespace lidar_upsampling

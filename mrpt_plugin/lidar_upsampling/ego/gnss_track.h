@@ -2,9 +2,9 @@
 // Copyright (c) 2026, the lidar_upsampling authors
 #pragma once
 
+#include <map>
 #include <memory>
 #include <optional>
-#include <vector>
 
 #include "lidar_upsampling/ego/trajectory.h"
 
@@ -45,7 +45,7 @@ class GnssTrack {
   /// Drops fixes that no query from `stamp` on needs.
   void forget_before(Stamp stamp);
 
-  [[nodiscard]] std::size_t size() const { return stamps_.size(); }
+  [[nodiscard]] std::size_t size() const { return antenna_in_world_.size(); }
 
  private:
   struct LocalFit;
@@ -59,8 +59,7 @@ class GnssTrack {
   double min_step_m_;
   std::shared_ptr<const GeographicLib::LocalCartesian> world_;
   Eigen::Vector3d antenna_in_vehicle_ = Eigen::Vector3d::Zero();
-  std::vector<Stamp> stamps_;
-  std::vector<Eigen::Vector3d> antenna_in_world_;
+  std::map<Stamp, Eigen::Vector3d> antenna_in_world_;
   std::optional<double> forgotten_heading_;
 };
 

@@ -9,7 +9,6 @@
 
 #include "lidar_upsampling/csv_table.h"
 #include "lidar_upsampling/se3.h"
-#include "lidar_upsampling/stamp_text.h"
 #include "lidar_upsampling/text.h"
 
 namespace lidar_upsampling {
@@ -187,17 +186,10 @@ PoseFileFormat format_of(const PoseFileOptions& options) {
 std::vector<PoseSample> read_pose_file(const PoseFileOptions& options,
                                        const std::vector<Stamp>& scans,
                                        const Pose& T_vehicle_sensor) {
-  std::vector<PoseSample> samples;
-  switch (format_of(options)) {
-    case PoseFileFormat::kitti:
-      samples = read_kitti(options, scans);
-      break;
-    case PoseFileFormat::csv:
-      samples = read_csv(options.path);
-      break;
-    default:
-      samples = read_tum(options.path);
-  }
+  const PoseFileFormat format = format_of(options);
+  std::vector<PoseSample> samples = format == PoseFileFormat::kitti ? read_kitti(options, scans)
+                                    : format == PoseFileFormat::csv ? read_csv(options.path)
+                                                                    : read_tum(options.path);
   for (PoseSample& sample : samples)
     sample.T_world_vehicle = sample.T_world_vehicle * T_vehicle_sensor.inverse();
   return samples;

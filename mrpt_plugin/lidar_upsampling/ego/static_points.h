@@ -26,7 +26,6 @@ struct StaticPointQuery {
 /// @brief Points to follow for the camera's ego-motion: spread over the picture by a grid, the best
 /// of each cell first (most texture), away from what may move.
 /// @return indices into `points`, at most `max_points`.
-/// @throw std::invalid_argument flags or texture of the wrong size.
 [[nodiscard]] std::vector<int> choose_static_points(const StaticPointQuery& query,
                                                     const StaticPointOptions& options = {});
 

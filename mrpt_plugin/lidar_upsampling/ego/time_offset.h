@@ -45,7 +45,7 @@ struct OffsetScores {
 /// @brief How well the scan's depth edges lie on the picture's edges if the picture was taken at
 /// its stamp less an offset (after Levinson and Thrun, RSS 2013, who look for a pose that way).
 /// @return none: too few edges, or a vehicle too slow for an offset to shift them.
-/// @throw std::invalid_argument options or camera model out of range.
+/// @throw std::invalid_argument camera model out of range.
 [[nodiscard]] std::optional<OffsetScores> score_time_offsets(const ScanOnPicture& pair,
                                                              const TimeOffsetOptions& options = {});
 
@@ -56,9 +56,9 @@ struct TimeOffset {
 };
 
 /// @brief The offset that suits all pictures best.
+/// @param scores by these options.
 /// @return none where it cannot be told: too few pictures, no peak within the search, or one that
 /// is not certain to `max_sigma_s`.
-/// @throw std::invalid_argument scores of different lengths.
 [[nodiscard]] std::optional<TimeOffset> estimate_time_offset(
     const std::vector<OffsetScores>& scores, const TimeOffsetOptions& options = {});
 

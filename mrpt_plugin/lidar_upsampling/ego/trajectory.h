@@ -2,8 +2,10 @@
 // Copyright (c) 2026, the lidar_upsampling authors
 #pragma once
 
+#include <cmath>
+#include <iterator>
+#include <map>
 #include <optional>
-#include <vector>
 
 #include "lidar_upsampling/types.h"
 
@@ -22,10 +24,22 @@ struct InterpolationLimits {
 
 enum class Reach { none, inside, outside };
 
-/// @brief Whether a stamp lies between samples, or just outside.
-/// @param stamps ascending, unique.
-[[nodiscard]] Reach reach_of(const std::vector<Stamp>& stamps, Stamp stamp,
-                             const InterpolationLimits& limits);
+/// Whether a stamp lies between samples, or just outside.
+template <typename T>
+[[nodiscard]] Reach reach_of(const std::map<Stamp, T>& samples, Stamp stamp,
+                             const InterpolationLimits& limits) {
+  if (samples.empty()) return Reach::none;
+  const auto next = samples.lower_bound(stamp);
+  if (next != samples.end() && next->first == stamp) return Reach::inside;
+  if (next == samples.end() || next == samples.begin()) {
+    const Stamp edge = next == samples.end() ? samples.rbegin()->first : next->first;
+    const double outside = std::abs(seconds_between(edge, stamp));
+    const bool is_reachable = samples.size() > 1 && outside <= limits.max_extrapolation_s;
+    return is_reachable ? Reach::outside : Reach::none;
+  }
+  const double gap = seconds_between(std::prev(next)->first, next->first);
+  return gap <= limits.max_gap_s ? Reach::inside : Reach::none;
+}
 
 struct TrajectoryPose {
   Pose T_world_vehicle = Pose::Identity();
@@ -35,7 +49,7 @@ struct TrajectoryPose {
 /// @brief Poses in time order, whatever order they come in.
 class Trajectory {
  public:
-  explicit Trajectory(const InterpolationLimits& limits = {});
+  explicit Trajectory(const InterpolationLimits& limits = {}) : limits_(limits) {}
 
   /// A second sample with the same stamp replaces the first.
   /// @throw std::invalid_argument the pose has a number that is not finite.
@@ -48,14 +62,13 @@ class Trajectory {
   /// Drops samples that no query from `stamp` on needs.
   void forget_before(Stamp stamp);
 
-  [[nodiscard]] std::size_t size() const { return stamps_.size(); }
+  [[nodiscard]] std::size_t size() const { return T_world_vehicle_.size(); }
 
  private:
   [[nodiscard]] std::optional<Pose> extrapolate(Stamp stamp) const;
 
   InterpolationLimits limits_;
-  std::vector<Stamp> stamps_;
-  std::vector<Pose> T_world_vehicle_;
+  std::map<Stamp, Pose> T_world_vehicle_;
 };
 
 }  // namespace lidar_upsampling
