@@ -4,16 +4,70 @@
 #include <utility>
 
 #include "lidar_upsampling/camera_view.h"
-#include "lidar_upsampling/objects/beam_step.h"
+#include "lidar_upsampling/objects/anchored_scan.h"
+#include "lidar_upsampling/objects/object_points.h"
+#include "lidar_upsampling/objects/road_users.h"
 #include "lidar_upsampling/partly_hidden.h"
 #include "lidar_upsampling/prepared_scan.h"
 #include "lidar_upsampling/scan/sweep.h"
-#include "lidar_upsampling/scan_objects.h"
 #include "lidar_upsampling/se3.h"
 #include "lidar_upsampling/stopwatch.h"
 #include "lidar_upsampling/upsampler.h"
 
 namespace lidar_upsampling {
+namespace {
+
+ScanObject make_object(const LidarScan& scan, std::vector<int> points, std::string class_name,
+                       double length, bool is_sweep) {
+  ScanObject object;
+  object.centroid = mean_of(points_at(scan, points));
+  if (is_sweep) object.time_s = mean_time(scan.time_s, points);
+  object.points = std::move(points);
+  object.class_name = std::move(class_name);
+  object.length = length;
+  return object;
+}
+
+// Those clusters that may be road users, seen by a camera or not, and the others.
+void sort_clusters(const Config& config, PreparedScan& prepared) {
+  const LidarScan& scan = prepared.scan;
+  const SceneSegments& segments = prepared.segments;
+  const bool is_sweep = config.sweep.scan_time != ScanTime::none;
+  const auto why = why_no_road_users(scan, segments, config.detector.clusters);
+  for (std::size_t i = 0; i < why.size(); ++i) {
+    const ClusterExtent& extent = segments.extents[i];
+    if (why[i] == nullptr)
+      prepared.objects.push_back(
+          make_object(scan, segments.clusters[i], class_by_size(extent), extent.length, is_sweep));
+    else
+      prepared.other_clusters.push_back({extent.centroid.cast<double>(),
+                                         {extent.length, extent.width, extent.height()},
+                                         segments.clusters[i].size(),
+                                         why[i]});
+  }
+}
+
+// What lies in a detector's boxes on a picture that shows the scan.
+// @param T_camera_lidar ego-motion until the picture included.
+std::vector<ScanObject> objects_of_boxes(const LidarScan& scan, const SceneSegments& segments,
+                                         const CameraImage& image, const Pose& T_camera_lidar,
+                                         Detector& detector, const Config& config) {
+  const auto visible = visible_points(anchor_scan(scan, image.camera.model, T_camera_lidar));
+  const bool is_sweep = config.sweep.scan_time != ScanTime::none;
+  std::vector<ScanObject> objects;
+  for (const Detection& detection : detector.detect(image)) {
+    auto points =
+        select_object_points(scan, visible, segments, detection.box, config.object_points);
+    if (!points) continue;
+    const double length = cluster_extent(scan.points, {}, *points).length;
+    objects.push_back(
+        make_object(scan, std::move(*points), detection.class_name, length, is_sweep));
+    objects.back().external_id = detection.external_track;
+  }
+  return objects;
+}
+
+}  // namespace
 
 double LidarUpsampler::turn_s() const {
   if (config_.sweep.period_ms > 0) return 1e-3 * config_.sweep.period_ms;
@@ -65,9 +119,7 @@ std::unique_ptr<PreparedScan> LidarUpsampler::prepared(LidarScan scan, const Pre
     result->resampler = std::make_unique<const BeamResampler>(result->scan, config_.resampling);
   }
   const Stopwatch watch(timing_, "candidates");
-  SortedClusters sorted = sorted_clusters(result->scan, result->segments, config_);
-  result->objects = std::move(sorted.objects);
-  result->other_clusters = std::move(sorted.others);
+  sort_clusters(config_, *result);
   return result;
 }
 

@@ -9,7 +9,7 @@
 #include <map>
 #include <opencv2/imgcodecs.hpp>
 
-#include "lidar_upsampling/stamp_text.h"
+#include "lidar_upsampling/types.h"
 
 namespace fs = std::filesystem;
 

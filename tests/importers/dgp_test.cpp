@@ -10,7 +10,7 @@
 #include "dgp2rawlog/npz_file.h"
 #include "dgp_layout.h"
 #include "io/test_folder.h"
-#include "lidar_upsampling/stamp_text.h"
+#include "lidar_upsampling/types.h"
 #include "log_checks.h"
 
 namespace fs = std::filesystem;

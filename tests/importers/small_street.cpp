@@ -177,7 +177,7 @@ void expect_boxes_fit(const std::string& boxes_csv, const SmallStreet& street,
     CameraImage image;
     image.stamp = logged[i];
     image.camera.label = label;
-    const std::vector<Detection> boxes = detector->detect({image});
+    const std::vector<Detection> boxes = detector->detect(image);
     for (const Detection& box : boxes) {
       EXPECT_GE(box.box.left, 0);
       EXPECT_GE(box.box.top, 0);

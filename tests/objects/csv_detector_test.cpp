@@ -7,7 +7,7 @@
 #include <fstream>
 
 #include "lidar_upsampling/objects/detector.h"
-#include "lidar_upsampling/stamp_text.h"
+#include "lidar_upsampling/types.h"
 
 namespace lidar_upsampling {
 namespace {
@@ -16,7 +16,7 @@ std::vector<Detection> detect(Detector& detector, const std::string& label, Stam
   CameraImage image;
   image.stamp = stamp;
   image.camera.label = label;
-  return detector.detect({image});
+  return detector.detect(image);
 }
 
 std::unique_ptr<Detector> from(const std::string& rows) {

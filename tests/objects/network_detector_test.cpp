@@ -114,7 +114,7 @@ void expect_lead_car(const NetworkDetectorOptions& options, const fs::path& data
   if (image.bgr.empty()) GTEST_SKIP() << "no image of drive 0052 in " << data;
   const auto detector = make_network_detector(options);
   double best = 0;
-  for (const Detection& detection : detector->detect({image})) {
+  for (const Detection& detection : detector->detect(image)) {
     EXPECT_NE(detection.class_name, "traffic light");
     if (detection.class_name != "car") continue;
     best = std::max(best, intersection_over_union(detection.box, {551, 184, 706, 325}));

@@ -36,7 +36,6 @@ ClusterExtent cluster_extent(const std::vector<Eigen::Vector3f>& points,
 
   const cv::RotatedRect rectangle = cv::minAreaRect(footprint);
   const bool turned = rectangle.size.height > rectangle.size.width;
-  extent.center = {rectangle.center.x, rectangle.center.y};
   extent.length = std::max(rectangle.size.width, rectangle.size.height);
   extent.width = std::min(rectangle.size.width, rectangle.size.height);
   double yaw_deg = rectangle.angle + (turned ? 90. : 0.);

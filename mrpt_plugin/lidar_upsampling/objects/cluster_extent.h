@@ -11,7 +11,6 @@ namespace lidar_upsampling {
 /// The smallest upright box around some points.
 struct ClusterExtent {
   Eigen::Vector3f centroid = Eigen::Vector3f::Zero();  ///< mean, lidar frame
-  Eigen::Vector2f center = Eigen::Vector2f::Zero();    ///< of the footprint
   float length = 0, width = 0;                         ///< m, of the footprint, length >= width
   float yaw = 0;              ///< rad, of the long side from +X, (-pi/2, pi/2]
   float bottom = 0, top = 0;  ///< m, above the ground

@@ -11,12 +11,11 @@
 #include <numeric>
 #include <stdexcept>
 #include <string>
-#include <vector>
+#include <unordered_map>
 
 #include "lidar_upsampling/objects/cluster_extent.h"
 #include "lidar_upsampling/registration/point_index.h"
 #include "lidar_upsampling/registration/voxel_grid.h"
-#include "lidar_upsampling/types.h"
 #include "lidar_upsampling/units.h"
 
 namespace lidar_upsampling {
@@ -29,13 +28,6 @@ struct Link {
   float ratio;
 };
 using Links = std::vector<Link>;
-
-/// Which points of a selection lie near to each other, by one representative for each voxel.
-struct Neighbourhoods {
-  std::vector<int> representative;  ///< of each selected point
-  int num_representatives = 0;
-  std::vector<Links> links;  ///< between representatives, each once, in no certain order
-};
 
 /// The squared distance within which each point's neighbours belong to the same object; squeezes z,
 /// where rings lie far apart, so that one distance serves both directions.
@@ -76,20 +68,6 @@ std::vector<Links> find_links(const PointIndex& index, const std::vector<float>&
   return {links.begin(), links.end()};
 }
 
-Neighbourhoods find_neighbours(const std::vector<Eigen::Vector3f>& points,
-                               const std::vector<int>& indices, const ClusterOptions& options) {
-  std::vector<Eigen::Vector3f> selected;
-  selected.reserve(indices.size());
-  for (const int index : indices) selected.push_back(points[index]);
-  VoxelGroups voxels = group_by_voxel(selected, options.voxel_size);
-  const std::vector<float> sq_reach = sq_reaches(voxels.means, options);
-  Neighbourhoods result;
-  result.links = find_links(PointIndex(std::move(voxels.means)), sq_reach);
-  result.representative = std::move(voxels.of_point);
-  result.num_representatives = static_cast<int>(sq_reach.size());
-  return result;
-}
-
 class DisjointSets {
  public:
   explicit DisjointSets(std::size_t size) : parent_(size) {
@@ -111,16 +89,15 @@ class DisjointSets {
 
 /// For each level of splitting, the component of each representative; what the threads found in
 /// which order does not matter.
-std::vector<DisjointSets> connect(const Neighbourhoods& near, const ClusterOptions& options) {
-  std::vector<DisjointSets> levels(options.max_splits + 1, DisjointSets(near.num_representatives));
+std::vector<DisjointSets> connect(const std::vector<Links>& links, std::size_t size,
+                                  const ClusterOptions& options) {
+  std::vector<DisjointSets> levels(options.max_splits + 1, DisjointSets(size));
   tbb::parallel_for(std::size_t{0}, levels.size(), [&](std::size_t level) {
     const auto max_ratio =
         static_cast<float>(std::pow(options.split_shrink, 2 * static_cast<double>(level)));
-    for (const Links& some : near.links) {
-      for (const Link& link : some) {
+    for (const Links& some : links)
+      for (const Link& link : some)
         if (link.ratio <= max_ratio) levels[level].join(link.a, link.b);
-      }
-    }
   });
   return levels;
 }
@@ -133,12 +110,16 @@ class Splitter {
  public:
   Splitter(const std::vector<Eigen::Vector3f>& points, const std::vector<int>& indices,
            const ClusterOptions& options)
-      : points_(points),
-        indices_(indices),
-        options_(options),
-        near_(find_neighbours(points, indices, options)),
-        levels_(connect(near_, options)),
-        slot_of_root_(near_.num_representatives, -1) {}
+      : points_(points), indices_(indices), options_(options) {
+    std::vector<Eigen::Vector3f> selected;
+    selected.reserve(indices.size());
+    for (const int index : indices) selected.push_back(points[index]);
+    VoxelGroups voxels = group_by_voxel(selected, options.voxel_size);
+    const std::vector<float> sq_reach = sq_reaches(voxels.means, options);
+    levels_ = connect(find_links(PointIndex(std::move(voxels.means)), sq_reach), sq_reach.size(),
+                      options);
+    representative_ = std::move(voxels.of_point);
+  }
 
   Clusters run() {
     std::vector<int> all(indices_.size());
@@ -149,7 +130,10 @@ class Splitter {
 
  private:
   void split(const std::vector<int>& members, std::size_t level) {
-    for (const auto& part : components(members, level)) {
+    std::unordered_map<int, std::vector<int>> parts;  // by their roots
+    for (const int member : members)
+      parts[levels_[level].find(representative_[member])].push_back(member);
+    for (const auto& [root, part] : parts) {
       if (static_cast<int>(part.size()) < options_.min_points) continue;
       std::vector<int> cluster;
       cluster.reserve(part.size());
@@ -161,23 +145,6 @@ class Splitter {
         clusters_.push_back(std::move(cluster));
       }
     }
-  }
-
-  Clusters components(const std::vector<int>& members, std::size_t level) {
-    Clusters parts;
-    std::vector<int> roots;
-    for (const int member : members) {
-      const int root = levels_[level].find(near_.representative[member]);
-      int& slot = slot_of_root_[root];
-      if (slot < 0) {
-        slot = static_cast<int>(parts.size());
-        parts.emplace_back();
-        roots.push_back(root);
-      }
-      parts[slot].push_back(member);
-    }
-    for (const int root : roots) slot_of_root_[root] = -1;
-    return parts;
   }
 
   [[nodiscard]] bool is_too_large(const std::vector<int>& cluster) const {
@@ -197,9 +164,8 @@ class Splitter {
   const std::vector<Eigen::Vector3f>& points_;
   const std::vector<int>& indices_;
   const ClusterOptions& options_;
-  Neighbourhoods near_;
+  std::vector<int> representative_;  // of each position: one for each voxel
   std::vector<DisjointSets> levels_;
-  std::vector<int> slot_of_root_;
   Clusters clusters_;
 };
 

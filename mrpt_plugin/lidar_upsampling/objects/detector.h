@@ -11,15 +11,6 @@
 
 namespace lidar_upsampling {
 
-/// What a detector may look at. `key_scan` and `segments` (its segment_scan) are null unless the
-/// image is the key image, i.e. paired with a scan.
-struct DetectorInput {
-  const CameraImage& image;
-  const LidarScan* key_scan = nullptr;
-  const SceneSegments* segments = nullptr;
-  Pose T_camera_lidar = Pose::Identity();  ///< at the image's instant
-};
-
 /// @brief Finds object candidates on an image, whether they move or not.
 class Detector {
  public:
@@ -27,7 +18,7 @@ class Detector {
   Detector(const Detector&) = delete;
   Detector& operator=(const Detector&) = delete;
   virtual ~Detector() = default;
-  virtual std::vector<Detection> detect(const DetectorInput& input) = 0;
+  virtual std::vector<Detection> detect(const CameraImage& image) = 0;
 };
 
 /// Road users by the size of their visible points; an object seen from behind is short.
@@ -35,8 +26,7 @@ struct ClusterDetectorOptions {
   int min_points = 10;
   double min_range = 1, max_range = 120;    ///< m, horizontal, of the centroid
   double min_height = 0.5, max_height = 4;  ///< m, of the highest point above the ground
-  double max_bottom =
-      1;  ///< m, of the lowest point above the ground, if nothing hides what is below it
+  double max_bottom = 1;  ///< m, of the lowest point above the ground, where nothing hides that
   double min_length = 0.3, max_length = 13;  ///< m, the longer side of the footprint
   double max_width = 3.2;                    ///< m, the shorter side
 };

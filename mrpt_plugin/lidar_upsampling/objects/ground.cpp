@@ -67,18 +67,22 @@ class CellGrid {
 };
 
 /// The lowest point of each cell in a frame whose z is up, -1 where a cell is empty.
-std::vector<int> lowest_points(const std::vector<Eigen::Vector3f>& points,
-                               const Eigen::Isometry3f& T_up_lidar, const CellGrid& grid) {
-  std::vector<int> lowest(grid.num_cells(), -1);
-  std::vector<float> z(grid.num_cells(), kUnknown);
+struct LowestPoints {
+  std::vector<int> index;
+  std::vector<float> z;
+};
+
+LowestPoints lowest_points(const std::vector<Eigen::Vector3f>& points,
+                           const Eigen::Isometry3f& T_up_lidar, const CellGrid& grid) {
+  LowestPoints lowest{std::vector<int>(grid.num_cells(), -1),
+                      std::vector<float>(grid.num_cells(), kUnknown)};
   for (std::size_t i = 0; i < points.size(); ++i) {
     const Eigen::Vector3f p = T_up_lidar * points[i];
     if (!grid.contains(p)) continue;
     const int cell = grid.cell_of(p);
-    if (p.z() < z[cell]) {
-      z[cell] = p.z();
-      lowest[cell] = static_cast<int>(i);
-    }
+    if (!(p.z() < lowest.z[cell])) continue;
+    lowest.z[cell] = p.z();
+    lowest.index[cell] = static_cast<int>(i);
   }
   return lowest;
 }
@@ -98,7 +102,7 @@ std::optional<Plane> near_plane(const LidarScan& scan, const CellGrid& grid,
   Eigen::Isometry3f T_up_lidar = Eigen::Isometry3f::Identity();
   T_up_lidar.linear() = level_rotation(plane_options.up).cast<float>();
   std::vector<int> low;
-  for (const int point : lowest_points(scan.points, T_up_lidar, grid)) {
+  for (const int point : lowest_points(scan.points, T_up_lidar, grid).index) {
     if (point >= 0 && scan.points[point].norm() < options.plane_range) low.push_back(point);
   }
   const auto fit = estimate_plane(scan.points, low, plane_options);
@@ -200,11 +204,7 @@ Ground estimate_ground(const LidarScan& scan, const GroundOptions& options) {
   Eigen::Isometry3f T_plane_lidar = Eigen::Isometry3f::Identity();
   T_plane_lidar.linear() = level_rotation(plane->normal).cast<float>();
   T_plane_lidar.translation().z() = static_cast<float>(plane->d);
-  std::vector<float> low(grid.num_cells(), kUnknown);
-  const std::vector<int> lowest = lowest_points(scan.points, T_plane_lidar, grid);
-  for (int cell = 0; cell < grid.num_cells(); ++cell) {
-    if (lowest[cell] >= 0) low[cell] = (T_plane_lidar * scan.points[lowest[cell]]).z();
-  }
+  const std::vector<float> low = lowest_points(scan.points, T_plane_lidar, grid).z;
   const std::vector<float> local = GroundFlood(grid, low, options).run();
 
   ground.height.resize(scan.size());
@@ -220,15 +220,12 @@ Ground estimate_ground(const LidarScan& scan, const GroundOptions& options) {
   return ground;
 }
 
-std::vector<Eigen::Vector3f> without_ground(const LidarScan& scan, const Ground& ground) {
+std::vector<Eigen::Vector3f> without_ground(const LidarScan& scan, const GroundOptions& options) {
+  const Ground ground = estimate_ground(scan, options);
   std::vector<Eigen::Vector3f> points;
   for (std::size_t i = 0; i < scan.size(); ++i)
     if (ground.is_ground.empty() || ground.is_ground[i] == 0) points.push_back(scan.points[i]);
   return points;
-}
-
-std::vector<Eigen::Vector3f> without_ground(const LidarScan& scan, const GroundOptions& options) {
-  return without_ground(scan, estimate_ground(scan, options));
 }
 
 }  // namespace lidar_upsampling

@@ -42,11 +42,7 @@ struct Ground {
 /// @throw std::invalid_argument options out of range.
 [[nodiscard]] Ground estimate_ground(const LidarScan& scan, const GroundOptions& options = {});
 
-/// The scan's points that do not lie on its ground.
-[[nodiscard]] std::vector<Eigen::Vector3f> without_ground(const LidarScan& scan,
-                                                          const Ground& ground);
-
-/// The same, the ground sought.
+/// The scan's points that do not lie on its ground, which is sought.
 [[nodiscard]] std::vector<Eigen::Vector3f> without_ground(const LidarScan& scan,
                                                           const GroundOptions& options = {});
 

@@ -106,12 +106,94 @@ void check(const NetworkDetectorOptions& options) {
 
 class NetworkDetector : public Detector {
  public:
-  explicit NetworkDetector(const NetworkDetectorOptions& options);
-  std::vector<Detection> detect(const DetectorInput& input) override;
+  explicit NetworkDetector(const NetworkDetectorOptions& options) : options_(options) {
+    check(options);
+    net_ = load_net(options);
+    class_names_ = load_lines(options.classes);
+    wanted_ = find_wanted(options.wanted, class_names_);
+    output_names_ = net_.getUnconnectedOutLayersNames();
+    input_size_ = input_size(options);
+    const std::vector<cv::Mat> outputs = run(cv::Mat::zeros(input_size_, CV_8UC3));
+    const auto layout = guess_layout(outputs.front(), static_cast<int>(class_names_.size()));
+    if (!layout) {
+      fail("the output of '" + options.model + "' fits no YOLO layout with the " +
+           std::to_string(class_names_.size()) + " classes of '" + options.classes + "'");
+    }
+    layout_ = *layout;
+  }
+
+  std::vector<Detection> detect(const CameraImage& image) override {
+    cv::Mat picture = image.bgr;
+    if (picture.empty()) cv::cvtColor(image.gray, picture, cv::COLOR_GRAY2BGR);
+    std::vector<NetworkBox> boxes;
+    for (const cv::Mat& output : run(picture)) {
+      const auto more =
+          decode_output(output, layout_, input_size_, wanted_, options_.min_confidence);
+      boxes.insert(boxes.end(), more.begin(), more.end());
+    }
+
+    // From parts of the input to pixels of the picture.
+    const cv::Size fitted = fitted_size(picture.size());
+    const auto to_picture = [](double part, int input_px, int fitted_px, int picture_px) {
+      const int padding = (input_px - fitted_px) / 2;
+      const double px = (part * input_px - padding) * picture_px / fitted_px;
+      return std::clamp(px, 0., static_cast<double>(picture_px));
+    };
+    const auto u = [&](double x) {
+      return to_picture(x, input_size_.width, fitted.width, picture.cols);
+    };
+    const auto v = [&](double y) {
+      return to_picture(y, input_size_.height, fitted.height, picture.rows);
+    };
+    std::vector<cv::Rect2d> rectangles;
+    std::vector<float> scores;
+    for (NetworkBox& found : boxes) {
+      found.box = {u(found.box.left), v(found.box.top), u(found.box.right), v(found.box.bottom)};
+      rectangles.emplace_back(found.box.left, found.box.top, found.box.width(), found.box.height());
+      scores.push_back(static_cast<float>(found.score));
+    }
+    std::vector<int> kept;
+    cv::dnn::NMSBoxes(rectangles, scores, static_cast<float>(options_.min_confidence),
+                      static_cast<float>(options_.max_overlap), kept);
+    std::vector<Detection> detections;
+    for (const int i : kept) {
+      if (boxes[i].box.area() <= 0) continue;
+      detections.push_back({boxes[i].box, class_names_[boxes[i].class_id], boxes[i].score, -1});
+    }
+    return detections;
+  }
 
  private:
-  [[nodiscard]] std::vector<cv::Mat> run(const cv::Mat& picture);
-  [[nodiscard]] cv::Size fitted_size(cv::Size picture) const;
+  /// The part of the input that the picture covers: all of it for networks trained on stretched
+  /// pictures, else the largest of the picture's own shape, centred.
+  [[nodiscard]] cv::Size fitted_size(cv::Size picture) const {
+    if (layout_ == NetworkLayout::region || layout_ == NetworkLayout::anchor_free)
+      return input_size_;
+    const double scale = std::min(static_cast<double>(input_size_.width) / picture.width,
+                                  static_cast<double>(input_size_.height) / picture.height);
+    return {std::max(1, cvRound(scale * picture.width)),
+            std::max(1, cvRound(scale * picture.height))};
+  }
+
+  std::vector<cv::Mat> run(const cv::Mat& picture) {
+    const cv::Size fitted = fitted_size(picture.size());
+    cv::Mat input(input_size_, CV_8UC3, cv::Scalar::all(kPaddingGray));
+    const cv::Rect inside((input_size_.width - fitted.width) / 2,
+                          (input_size_.height - fitted.height) / 2, fitted.width, fitted.height);
+    cv::Mat target = input(inside);
+    cv::resize(picture, target, fitted, 0, 0, cv::INTER_LINEAR);
+    const bool rgb = layout_ != NetworkLayout::anchor_free;  // FastestDet takes OpenCV's own order
+    std::vector<cv::Mat> outputs;
+    try {
+      net_.setInput(cv::dnn::blobFromImage(input, 1. / 255, cv::Size(), cv::Scalar(), rgb));
+      net_.forward(outputs, output_names_);
+    } catch (const cv::Exception& error) {
+      fail("'" + options_.model + "' does not run on an input of " +
+           std::to_string(input_size_.width) + " x " + std::to_string(input_size_.height) +
+           " (input_width, input_height): " + error.what());
+    }
+    return outputs;
+  }
 
   NetworkDetectorOptions options_;
   std::vector<std::string> class_names_;
@@ -121,92 +203,6 @@ class NetworkDetector : public Detector {
   cv::Size input_size_;
   NetworkLayout layout_ = NetworkLayout::region;
 };
-
-NetworkDetector::NetworkDetector(const NetworkDetectorOptions& options) : options_(options) {
-  check(options);
-  net_ = load_net(options);
-  class_names_ = load_lines(options.classes);
-  wanted_ = find_wanted(options.wanted, class_names_);
-  output_names_ = net_.getUnconnectedOutLayersNames();
-  input_size_ = input_size(options);
-  const std::vector<cv::Mat> outputs = run(cv::Mat::zeros(input_size_, CV_8UC3));
-  const auto layout = guess_layout(outputs.front(), static_cast<int>(class_names_.size()));
-  if (!layout) {
-    fail("the output of '" + options.model + "' fits no YOLO layout with the " +
-         std::to_string(class_names_.size()) + " classes of '" + options.classes + "'");
-  }
-  layout_ = *layout;
-}
-
-/// The part of the input that the picture covers: all of it for networks trained on stretched
-/// pictures, else the largest of the picture's own shape, centred.
-cv::Size NetworkDetector::fitted_size(cv::Size picture) const {
-  if (layout_ == NetworkLayout::region || layout_ == NetworkLayout::anchor_free) return input_size_;
-  const double scale = std::min(static_cast<double>(input_size_.width) / picture.width,
-                                static_cast<double>(input_size_.height) / picture.height);
-  return {std::max(1, cvRound(scale * picture.width)),
-          std::max(1, cvRound(scale * picture.height))};
-}
-
-std::vector<cv::Mat> NetworkDetector::run(const cv::Mat& picture) {
-  const cv::Size fitted = fitted_size(picture.size());
-  cv::Mat input(input_size_, CV_8UC3, cv::Scalar::all(kPaddingGray));
-  const cv::Rect inside((input_size_.width - fitted.width) / 2,
-                        (input_size_.height - fitted.height) / 2, fitted.width, fitted.height);
-  cv::Mat target = input(inside);
-  cv::resize(picture, target, fitted, 0, 0, cv::INTER_LINEAR);
-  const bool rgb = layout_ != NetworkLayout::anchor_free;  // FastestDet takes OpenCV's own order
-  std::vector<cv::Mat> outputs;
-  try {
-    net_.setInput(cv::dnn::blobFromImage(input, 1. / 255, cv::Size(), cv::Scalar(), rgb));
-    net_.forward(outputs, output_names_);
-  } catch (const cv::Exception& error) {
-    fail("'" + options_.model + "' does not run on an input of " +
-         std::to_string(input_size_.width) + " x " + std::to_string(input_size_.height) +
-         " (input_width, input_height): " + error.what());
-  }
-  return outputs;
-}
-
-std::vector<Detection> NetworkDetector::detect(const DetectorInput& input) {
-  cv::Mat picture = input.image.bgr;
-  if (picture.empty()) cv::cvtColor(input.image.gray, picture, cv::COLOR_GRAY2BGR);
-  std::vector<NetworkBox> boxes;
-  for (const cv::Mat& output : run(picture)) {
-    const auto more = decode_output(output, layout_, input_size_, wanted_, options_.min_confidence);
-    boxes.insert(boxes.end(), more.begin(), more.end());
-  }
-
-  // From parts of the input to pixels of the picture.
-  const cv::Size fitted = fitted_size(picture.size());
-  const auto to_picture = [](double part, int input_px, int fitted_px, int picture_px) {
-    const int padding = (input_px - fitted_px) / 2;
-    const double px = (part * input_px - padding) * picture_px / fitted_px;
-    return std::clamp(px, 0., static_cast<double>(picture_px));
-  };
-  const auto u = [&](double x) {
-    return to_picture(x, input_size_.width, fitted.width, picture.cols);
-  };
-  const auto v = [&](double y) {
-    return to_picture(y, input_size_.height, fitted.height, picture.rows);
-  };
-  std::vector<cv::Rect2d> rectangles;
-  std::vector<float> scores;
-  for (NetworkBox& found : boxes) {
-    found.box = {u(found.box.left), v(found.box.top), u(found.box.right), v(found.box.bottom)};
-    rectangles.emplace_back(found.box.left, found.box.top, found.box.width(), found.box.height());
-    scores.push_back(static_cast<float>(found.score));
-  }
-  std::vector<int> kept;
-  cv::dnn::NMSBoxes(rectangles, scores, static_cast<float>(options_.min_confidence),
-                    static_cast<float>(options_.max_overlap), kept);
-  std::vector<Detection> detections;
-  for (const int i : kept) {
-    if (boxes[i].box.area() <= 0) continue;
-    detections.push_back({boxes[i].box, class_names_[boxes[i].class_id], boxes[i].score, -1, {}});
-  }
-  return detections;
-}
 
 }  // namespace
 

@@ -37,10 +37,6 @@ std::vector<int> count_visible(const std::vector<ProjectedPoint>& visible,
   return count;
 }
 
-bool is_object(const ClusterExtent& extent, const ClusterOptions& options) {
-  return extent.length <= options.max_length && extent.width <= options.max_width;
-}
-
 /// Finds the scene's cluster of a candidate, unless it is a wall, a hedge or the like.
 void find_in_scene(Candidate& candidate, const SceneSegments& segments,
                    const std::vector<int>& num_visible, const ClusterOptions& options) {
@@ -48,7 +44,9 @@ void find_in_scene(Candidate& candidate, const SceneSegments& segments,
   for (const int index : candidate.points) ++hits[segments.cluster_of[index]];
   const auto [cluster, most] = *std::max_element(
       hits.begin(), hits.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
-  if (cluster < 0 || !is_object(segments.extents[cluster], options)) return;
+  if (cluster < 0 || segments.extents[cluster].length > options.max_length ||
+      segments.extents[cluster].width > options.max_width)
+    return;
   candidate.scene_cluster = cluster;
   candidate.scene_hits = most;
   candidate.share = static_cast<double>(most) / num_visible[cluster];

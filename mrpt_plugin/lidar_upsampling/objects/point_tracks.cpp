@@ -52,7 +52,6 @@ void add_points(PointTracks& tracks, const std::vector<ProjectedPoint>& projecte
                 const std::vector<int>& chosen, const LidarScan& key_scan, int owner) {
   for (const int i : chosen) {
     const ProjectedPoint& point = projected[i];
-    tracks.scan_index.push_back(point.index);
     tracks.point.emplace_back(key_scan.points[point.index].cast<double>());
     tracks.owner.push_back(owner);
     tracks.anchor_px.emplace_back(point.u, point.v);

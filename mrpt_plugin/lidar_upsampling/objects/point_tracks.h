@@ -24,8 +24,7 @@ inline constexpr int kStaticOwner = -1;
 /// @brief Points of the key scan put on the anchor image, and where they have gone since. One KLT
 /// call follows those of all objects, so that the pyramids are shared.
 struct PointTracks {
-  std::vector<int> scan_index;              ///< of each, in the key scan
-  std::vector<Eigen::Vector3d> point;       ///< lidar frame at k
+  std::vector<Eigen::Vector3d> point;       ///< of each, lidar frame at k
   std::vector<int> owner;                   ///< the object candidate, or kStaticOwner
   std::vector<cv::Point2f> anchor_px;       ///< where it was put
   std::vector<cv::Point2f> last_px;         ///< where it was last found
