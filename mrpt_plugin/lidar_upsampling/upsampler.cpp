@@ -66,7 +66,7 @@ std::optional<VirtualScan> LidarUpsampler::insert_image(const CameraImage& image
 
   CameraView& view = view_of(image.camera);
   const auto picture = make_picture(image, instant, config_.klt, timing_);
-  if (key_ && is_key_image(instant))
+  if (key_ && ms_between(key_->scan.stamp, instant) <= config_.timing.pair_tolerance_ms)
     start(view, picture);
   else if (is_due(instant))
     process(view, *picture, effort);
@@ -108,12 +108,9 @@ VirtualScan LidarUpsampler::compose(ScanMotion motion) {
   watch.stop();
   if (key_->resampler) {
     const Stopwatch watch_beams(timing_, "resampling");
-    if (of_next) {
-      const BeamResampler::OtherView other{*next->resampler, *of_next};
-      scan = key_->resampler->resample(std::move(scan), &other);
-    } else {
-      scan = key_->resampler->resample(std::move(scan));
-    }
+    std::optional<BeamResampler::OtherView> other;
+    if (of_next) other.emplace(BeamResampler::OtherView{*next->resampler, *of_next});
+    scan = key_->resampler->resample(std::move(scan), other ? &*other : nullptr);
   }
   if (config_.sweep.scan_time != ScanTime::none)
     scan.scan.time_s.clear();  // all are of one instant
@@ -127,10 +124,6 @@ CameraView& LidarUpsampler::view_of(const Camera& camera) {
   auto& view = views_[camera.label];
   if (!view) view = std::make_unique<CameraView>(camera);
   return *view;
-}
-
-bool LidarUpsampler::is_key_image(Stamp instant) const {
-  return ms_between(key_->scan.stamp, instant) <= config_.timing.pair_tolerance_ms;
 }
 
 bool LidarUpsampler::is_due(Stamp instant) const {

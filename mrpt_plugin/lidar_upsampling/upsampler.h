@@ -76,7 +76,6 @@ class LidarUpsampler {
 
  private:
   [[nodiscard]] CameraView& view_of(const Camera& camera);
-  [[nodiscard]] bool is_key_image(Stamp instant) const;
   [[nodiscard]] bool is_due(Stamp instant) const;
   void start(CameraView& view, const std::shared_ptr<const Picture>& anchor);
   void process(CameraView& view, const Picture& picture, Effort effort);

@@ -73,11 +73,11 @@ double first_range(const Scene& scene, int row, const Beam& beam, double reach) 
   double first = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < scene.patches.size(); ++i) {
     const Patch& patch = scene.patches[i];
-    const Motion& back = scene.motions.back[scene.motions.of_patch[i]];
+    const Eigen::Isometry3f& back = scene.motions.back[scene.motions.of_patch[i]];
     const Eigen::Vector3d origin = (back * scene.pattern.rows[row].origin() -
                                     scene.pattern.rows[scene.row_of_patch[i]].origin())
                                        .cast<double>();
-    const Eigen::Vector3d direction = (back.R * beam.direction).cast<double>();
+    const Eigen::Vector3d direction = (back.linear() * beam.direction).cast<double>();
     const Eigen::Vector3d normal = patch.frame.row(0).cast<double>();
     const double range = (1 - normal.dot(origin)) / normal.dot(direction);
     if (!(range > 0) || range >= first) continue;
@@ -90,21 +90,20 @@ double first_range(const Scene& scene, int row, const Beam& beam, double reach) 
   return first;
 }
 
-std::vector<FootprintsOfRow> footprints_of(const Scene& scene, const PatchSet& patches,
-                                           const Columns& columns) {
+std::vector<FootprintsOfRow> footprints_of(const Scene& scene, const Columns& columns) {
   std::vector<FootprintsOfRow> footprints;
   footprints.reserve(scene.pattern.rows.size());
   for (const BeamRow& row : scene.pattern.rows)
-    footprints.emplace_back(row, scene.pattern, columns, patches, scene.motions, 1.5F);
+    footprints.push_back(
+        find_footprints(row, scene.pattern, columns, scene.patches, scene.motions, 1.5F));
   return footprints;
 }
 
 TEST(RowCaster, finds_what_a_search_through_all_patches_finds) {
   const Scene scene(scan_of({kBackdrop, kCar}, {}));
-  const PatchSet patches{scene.patches, std::vector<int>(scene.patches.size(), -1), {}};
   const Columns columns(scene.pattern.azimuth_pitch);
-  const std::vector<FootprintsOfRow> footprints = footprints_of(scene, patches, columns);
-  const CastScene cast_scene{scene.pattern, patches, scene.motions, footprints};
+  const std::vector<FootprintsOfRow> footprints = footprints_of(scene, columns);
+  const CastScene cast_scene{scene.pattern, scene.patches, scene.motions, footprints};
   const ResampleOptions options;
   RowCaster caster(cast_scene, options);
   int compared = 0, different = 0;
@@ -130,10 +129,9 @@ TEST(RowCaster, finds_what_a_search_through_all_patches_finds) {
 TEST(RowCaster, leaves_out_patches_that_do_not_count) {
   Scene scene(scan_of({kBackdrop, kCar}, {}));
   std::fill(scene.motions.of_patch.begin(), scene.motions.of_patch.end(), PatchMotions::kAbsent);
-  const PatchSet patches{scene.patches, std::vector<int>(scene.patches.size(), -1), {}};
   const Columns columns(scene.pattern.azimuth_pitch);
-  const std::vector<FootprintsOfRow> footprints = footprints_of(scene, patches, columns);
-  const CastScene cast_scene{scene.pattern, patches, scene.motions, footprints};
+  const std::vector<FootprintsOfRow> footprints = footprints_of(scene, columns);
+  const CastScene cast_scene{scene.pattern, scene.patches, scene.motions, footprints};
   RowBeams beams;
   beams.beams = find_beams(scene.scan, scene.pattern, 20, seen_directions(scene.pattern));
   beams.first = first_of_columns(beams.beams, columns);

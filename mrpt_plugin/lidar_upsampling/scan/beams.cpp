@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "lidar_upsampling/scan/azimuth.h"
-
 namespace lidar_upsampling {
 namespace {
 

@@ -2,10 +2,8 @@
 // Copyright (c) 2026, the lidar_upsampling authors
 #pragma once
 
-#include <optional>
 #include <vector>
 
-#include "lidar_upsampling/scan/azimuth.h"
 #include "lidar_upsampling/scan/beam_pattern.h"
 
 namespace lidar_upsampling {

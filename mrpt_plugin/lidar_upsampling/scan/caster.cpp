@@ -13,34 +13,33 @@ RowCaster::RowCaster(const CastScene& scene, const ResampleOptions& options)
       max_gap_(static_cast<float>(options.max_gap)),
       same_surface_(static_cast<float>(options.same_surface_m)) {}
 
-const std::vector<BeamHit>& RowCaster::cast(int row, const RowBeams& beams) {
+std::vector<BeamHit> RowCaster::cast(int row, const RowBeams& beams) {
   take_row(row, beams);
-  for (const FootprintsOfRow& from : scene_.footprints) {
-    const auto [begin, end] = from.on_row(row);
-    for (const Footprint* print = begin; print != end; ++print) meet(*print, from.origin(), beams);
-  }
-  result_.clear();
+  for (const FootprintsOfRow& from : scene_.footprints)
+    for (const Footprint& print : from.on_row[row]) meet(print, from.origin, beams);
+  std::vector<BeamHit> hits;
   for (int k = 0; k < static_cast<int>(beams.beams.size()); ++k)
     if (const BeamHit hit = hit_of(k, beams.beams[k].point >= 0); hit.patch >= 0)
-      result_.push_back(hit);
-  return result_;
+      hits.push_back(hit);
+  return hits;
 }
 
 void RowCaster::take_row(int row, const RowBeams& beams) {
-  const std::vector<Motion>& back = scene_.motions.back;
+  const std::vector<Eigen::Isometry3f>& back = scene_.motions.back;
   turns_.clear();
   origins_.clear();
-  for (const Motion& motion : back) {
-    turns_.emplace_back(motion.R * back[0].R.transpose());
+  for (const Eigen::Isometry3f& motion : back) {
+    turns_.emplace_back(motion.linear() * back[0].linear().transpose());
     origins_.emplace_back(motion * scene_.pattern.rows[row].origin());
   }
+  const Eigen::Matrix3f R = back[0].linear();
   const std::size_t size = beams.beams.size();
   for (auto* values : {&x_, &y_, &z_}) values->resize(size + 3, 0);
   for (std::size_t k = 0; k < size; ++k) {
-    const Eigen::Vector3f direction = turned(back[0].R, beams.beams[k].direction);
-    x_[k] = direction.x();
-    y_[k] = direction.y();
-    z_[k] = direction.z();
+    const Eigen::Vector3f& v = beams.beams[k].direction;
+    x_[k] = R(0, 0) * v.x() + R(0, 1) * v.y() + R(0, 2) * v.z();
+    y_[k] = R(1, 0) * v.x() + R(1, 1) * v.y() + R(1, 2) * v.z();
+    z_[k] = R(2, 0) * v.x() + R(2, 1) * v.y() + R(2, 2) * v.z();
   }
   last_.assign(size, -1);
   num_meetings_ = 0;
@@ -49,7 +48,7 @@ void RowCaster::take_row(int row, const RowBeams& beams) {
 // Four beams at a time.
 void RowCaster::meet(const Footprint& print, const Eigen::Vector3f& origin, const RowBeams& beams) {
   const int motion = scene_.motions.of_patch[print.patch];
-  const Patch& patch = scene_.patches.patch(print.patch);
+  const Patch& patch = scene_.patches[print.patch];
   const Eigen::Array4f from = patch.in_frame(origins_[motion] - origin);
   Eigen::Matrix<float, 4, 3> turned_frame;
   if (motion != 0) turned_frame = patch.frame * turns_[motion];
@@ -103,7 +102,7 @@ BeamHit RowCaster::hit_of(int beam, bool is_measured) const {
   if (num_hits <= 1) return {beam, nearest->patch, nearest->range};
   // Across the plane of the first one, so that ground seen at a flat angle counts as one surface.
   const float farthest = first->range + same_surface_ *
-                                            scene_.patches.patch(first->patch).frame.row(0).norm() /
+                                            scene_.patches[first->patch].frame.row(0).norm() /
                                             std::abs(first->approach);
   float sum = 0, sum_weights = 0;
   nearest = first;

@@ -26,7 +26,7 @@ struct RowBeams {
 /// The patches that beams may hit, and how they have moved.
 struct CastScene {
   const BeamPattern& pattern;
-  const PatchSet& patches;
+  const std::vector<Patch>& patches;
   const PatchMotions& motions;
   const std::vector<FootprintsOfRow>& footprints;  ///< of each row whose patches they are
 };
@@ -37,8 +37,8 @@ class RowCaster {
  public:
   RowCaster(const CastScene& scene, const ResampleOptions& options);
 
-  /// @return a hit for each beam that has one, in their order; good until the next call.
-  [[nodiscard]] const std::vector<BeamHit>& cast(int row, const RowBeams& beams);
+  /// @return a hit for each beam that has one, in their order.
+  [[nodiscard]] std::vector<BeamHit> cast(int row, const RowBeams& beams);
 
  private:
   // A patch near a beam.
@@ -68,7 +68,6 @@ class RowCaster {
   std::vector<Meeting> meetings_;         // and room for more
   int num_meetings_ = 0;
   std::vector<int> last_;  // meeting of each beam
-  std::vector<BeamHit> result_;
 };
 
 }  // namespace lidar_upsampling

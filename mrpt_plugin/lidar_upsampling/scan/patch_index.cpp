@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <stdexcept>
-#include <string>
 
 namespace lidar_upsampling {
 namespace {
@@ -32,23 +30,16 @@ Outline outline_of(const Patch& patch, float origin_height, float reach) {
           (axes(1, 2) + axes(2, 2) * x + axes(3, 2) * y) * depth + origin_height};
 }
 
-Outline moved(const Outline& o, const Motion& T) {
-  const Eigen::Matrix3f& R = T.R;
-  return {R(0, 0) * o.x + R(0, 1) * o.y + R(0, 2) * o.z + T.t.x(),
-          R(1, 0) * o.x + R(1, 1) * o.y + R(1, 2) * o.z + T.t.y(),
-          R(2, 0) * o.x + R(2, 1) * o.y + R(2, 2) * o.z + T.t.z()};
+Outline moved(const Outline& o, const Eigen::Isometry3f& T) {
+  return {T(0, 0) * o.x + T(0, 1) * o.y + T(0, 2) * o.z + T(0, 3),
+          T(1, 0) * o.x + T(1, 1) * o.y + T(1, 2) * o.z + T(1, 3),
+          T(2, 0) * o.x + T(2, 1) * o.y + T(2, 2) * o.z + T(2, 3)};
 }
 
 // Rows from `first` to before `end`, azimuths from `right` to `left`.
 struct Cover {
   int first = 0, end = 0;
   float right = 0, left = 0;
-};
-
-// A footprint before it is known where those of its row begin.
-struct Print {
-  int first_row, end_row;
-  Footprint footprint;
 };
 
 // Finds what an outline covers, from what the one before did.
@@ -98,14 +89,16 @@ class Coverage {
 };
 
 // In one piece, or two where it lies across azimuth zero.
-void add_prints(const Cover& cover, int patch, const Columns& columns, std::vector<Print>& prints) {
+void add_prints(const Cover& cover, int patch, const Columns& columns, FootprintsOfRow& prints) {
   int first = columns.at(cover.right), last = columns.at(cover.left);
   if (last - first >= columns.number) first = 0, last = columns.number - 1;
   if (first < 0) first += columns.number, last += columns.number;
   if (first >= columns.number) first -= columns.number, last -= columns.number;
   const int end = columns.number - 1;
-  prints.push_back({cover.first, cover.end, {patch, first, std::min(last, end)}});
-  if (last > end) prints.push_back({cover.first, cover.end, {patch, 0, last - end - 1}});
+  for (int row = cover.first; row < cover.end; ++row) {
+    prints.on_row[row].push_back({patch, first, std::min(last, end)});
+    if (last > end) prints.on_row[row].push_back({patch, 0, last - end - 1});
+  }
 }
 
 }  // namespace
@@ -136,9 +129,6 @@ PatchMotions motions_of(const std::vector<int>& position, const VirtualScan& mov
   auto motion = of_track.find(kStatic);
   for (std::size_t k = 0; k < moved.source_index.size(); ++k) {
     if (motion->first != moved.track_id[k]) motion = of_track.find(moved.track_id[k]);
-    if (motion == of_track.end())
-      throw std::invalid_argument("resampling: points of track " +
-                                  std::to_string(moved.track_id[k]) + ", but no such object");
     motions.of_patch[position[moved.source_index[k]]] = motion->second;
   }
   return motions;
@@ -160,27 +150,18 @@ double largest_motion(const std::vector<Eigen::Vector3f>& points, const PatchMot
   return largest;
 }
 
-FootprintsOfRow::FootprintsOfRow(const BeamRow& own, const BeamPattern& pattern,
-                                 const Columns& columns, const PatchSet& patches,
-                                 const PatchMotions& motions, float reach)
-    : origin_(own.origin()), begin_(pattern.num_rows() + 2, 0) {
-  std::vector<Print> prints;
-  prints.reserve(own.end - own.begin + 16);
+FootprintsOfRow find_footprints(const BeamRow& own, const BeamPattern& pattern,
+                                const Columns& columns, const std::vector<Patch>& patches,
+                                const PatchMotions& motions, float reach) {
+  FootprintsOfRow prints{own.origin(), std::vector<std::vector<Footprint>>(pattern.num_rows())};
   Coverage coverage(pattern, own);
   for (int i = own.begin; i < own.end; ++i) {
     if (motions.of_patch[i] < 0) continue;
-    const Outline outline = outline_of(patches.patch(i), own.origin_height, reach);
-    const Cover cover = coverage.of(moved(outline, motions.forth[motions.of_patch[i]]));
-    if (cover.first < cover.end) add_prints(cover, i, columns, prints);
+    const Outline outline = outline_of(patches[i], own.origin_height, reach);
+    const Outline now = moved(outline, motions.forth[motions.of_patch[i]]);
+    add_prints(coverage.of(now), i, columns, prints);
   }
-  // Counted two places on and filled one place on, the beginnings end up where they belong.
-  for (const Print& print : prints)
-    for (int r = print.first_row; r < print.end_row; ++r) ++begin_[r + 2];
-  for (std::size_t r = 2; r < begin_.size(); ++r) begin_[r] += begin_[r - 1];
-  prints_.resize(begin_.back());
-  for (const Print& print : prints)
-    for (int r = print.first_row; r < print.end_row; ++r)
-      prints_[begin_[r + 1]++] = print.footprint;
+  return prints;
 }
 
 }  // namespace lidar_upsampling

@@ -28,30 +28,18 @@ struct BeamAxes {
   float range, inverse_range;
 };
 
-// Neighbours as seen along a point's beam: offsets to the left and upwards (tangents), inverse
-// depth. Planes are linear in these. Four by side, or one.
-template <typename T>
+// A neighbour as seen along a point's beam: offset to the left and upwards (tangents), inverse
+// depth. Planes are linear in these.
 struct Sight {
-  Sight(const BeamAxes& axes, const T& x, const T& y, const T& z)
-      : inverse_depth(1 / (x * axes.ahead.x() + y * axes.ahead.y() + z * axes.ahead.z())),
-        left((x * axes.left.x() + y * axes.left.y()) * inverse_depth),
-        up((x * axes.up.x() + y * axes.up.y() + z * axes.up.z()) * inverse_depth) {}
+  Sight(const BeamAxes& axes, const Eigen::Vector3f& origin, const Eigen::Vector3f& point) {
+    const float x = point.x(), y = point.y(), z = point.z() - origin.z();
+    inverse_depth = 1 / (x * axes.ahead.x() + y * axes.ahead.y() + z * axes.ahead.z());
+    left = (x * axes.left.x() + y * axes.left.y()) * inverse_depth;
+    up = (x * axes.up.x() + y * axes.up.y() + z * axes.up.z()) * inverse_depth;
+  }
 
-  T inverse_depth, left, up;
+  float inverse_depth, left, up;
 };
-
-Sight<float> see(const BeamAxes& axes, const Eigen::Vector3f& origin,
-                 const Eigen::Vector3f& point) {
-  return {axes, point.x(), point.y(), point.z() - origin.z()};
-}
-
-Sight<Eigen::Array4f> see(const BeamAxes& axes, const Eigen::Vector3f& origin,
-                          const std::array<const Eigen::Vector3f*, 4>& points) {
-  const auto& [a, b, c, d] = points;
-  return {axes, Eigen::Array4f(a->x(), b->x(), c->x(), d->x()),
-          Eigen::Array4f(a->y(), b->y(), c->y(), d->y()),
-          Eigen::Array4f(a->z(), b->z(), c->z(), d->z()) - origin.z()};
-}
 
 // The way from a point to a neighbour of its surface: offset and difference of inverse depth.
 struct Step {
@@ -61,26 +49,33 @@ struct Step {
 
 // What a point's beam sees of its neighbours. A missing one stands where the point does.
 class Surroundings {
+  // These come first, as the neighbours are seen by them.
+  const std::vector<Eigen::Vector3f>& points_;
+  const std::vector<BeamNeighbours>& neighbours_;
+  const int* owner_;
+  const Eigen::Vector3f& origin_;
+  int point_;
+
  public:
   Surroundings(const std::vector<Eigen::Vector3f>& points,
                const std::vector<BeamNeighbours>& neighbours, const int* owner,
                const Eigen::Vector3f& origin, int point)
-      : axes(origin, points[point]),
-        near(see(axes, origin, points_of(points, neighbours[point], point))),
-        points_(points),
+      : points_(points),
         neighbours_(neighbours),
         owner_(owner),
         origin_(origin),
-        point_(point) {}
+        point_(point),
+        axes(origin, points[point]),
+        near{sight(kRight), sight(kLeft), sight(kDown), sight(kUp)} {}
 
   // `tilt` is the slope in the direction across.
   [[nodiscard]] Step step(Side side, float tilt) const {
     Step step;
     if (!has_near[side] || !is_own(neighbours_[point_][side])) return step;
     step.is_there = true;
-    step.offset = is_upright(side) ? near.up[side] : near.left[side];
-    step.rise = near.inverse_depth[side] - axes.inverse_range -
-                tilt * (is_upright(side) ? near.left[side] : near.up[side]);
+    step.offset = is_upright(side) ? near[side].up : near[side].left;
+    step.rise = near[side].inverse_depth - axes.inverse_range -
+                tilt * (is_upright(side) ? near[side].left : near[side].up);
     step.slope = step.rise / step.offset;
     return step;
   }
@@ -90,36 +85,27 @@ class Surroundings {
     constexpr float kUnknown = std::numeric_limits<float>::infinity();
     const int next = neighbours_[point_][side], far = neighbours_[next][side];
     if (far < 0 || !is_own(far)) return kUnknown;
-    const Sight<float> sight = see(axes, origin_, points_[far]);
-    const float left = sight.left - near.left[side], up = sight.up - near.up[side];
+    const Sight beyond(axes, origin_, points_[far]);
+    const float left = beyond.left - near[side].left, up = beyond.up - near[side].up;
     const float along = is_upright(side) ? up : left, across = is_upright(side) ? left : up;
     if (along * step.offset <= 0) return kUnknown;
-    return (sight.inverse_depth - near.inverse_depth[side] - tilt * across) / along - step.slope;
+    return (beyond.inverse_depth - near[side].inverse_depth - tilt * across) / along - step.slope;
   }
 
   BeamAxes axes;
-  Sight<Eigen::Array4f> near;
+  std::array<Sight, 4> near;       // by side
   std::array<bool, 4> has_near{};  // by side
 
  private:
   static bool is_upright(Side side) { return side == kDown || side == kUp; }
-  static std::array<const Eigen::Vector3f*, 4> points_of(const std::vector<Eigen::Vector3f>& points,
-                                                         const BeamNeighbours& neighbours,
-                                                         int point) {
-    const auto of = [&](Side side) {
-      return &points[neighbours[side] < 0 ? point : neighbours[side]];
-    };
-    return {of(kRight), of(kLeft), of(kDown), of(kUp)};
+  [[nodiscard]] Sight sight(Side side) const {
+    const int neighbour = neighbours_[point_][side];
+    return {axes, origin_, points_[neighbour < 0 ? point_ : neighbour]};
   }
+
   [[nodiscard]] bool is_own(int other) const {
     return owner_ == nullptr || owner_[other] == owner_[point_];
   }
-
-  const std::vector<Eigen::Vector3f>& points_;
-  const std::vector<BeamNeighbours>& neighbours_;
-  const int* owner_;
-  const Eigen::Vector3f& origin_;
-  int point_;
 };
 
 class SlopeRule {
@@ -180,10 +166,10 @@ Patch patch_of(const Surroundings& around, const Eigen::Vector3f& cell,
   constexpr float kAny = std::numeric_limits<float>::infinity();
   patch.inverse_reach =
       Eigen::Array4f(1, -1, 1, -1) /
-      Eigen::Array4f(reach(kLeft, around.near.left[kLeft], cell.x(), kAny),
-                     reach(kRight, -around.near.left[kRight], cell.x(), kAny),
-                     reach(kUp, around.near.up[kUp], cell.z(), 2 * cell.z()),
-                     reach(kDown, -around.near.up[kDown], cell.y(), 2 * cell.y()));
+      Eigen::Array4f(reach(kLeft, around.near[kLeft].left, cell.x(), kAny),
+                     reach(kRight, -around.near[kRight].left, cell.x(), kAny),
+                     reach(kUp, around.near[kUp].up, cell.z(), 2 * cell.z()),
+                     reach(kDown, -around.near[kDown].up, cell.y(), 2 * cell.y()));
   return patch;
 }
 
@@ -215,8 +201,8 @@ Patch PatchMaker::make(int row, int point, const int* owner) const {
   const Eigen::Vector3f &cell = cells_[row], origin = pattern_.rows[row].origin();
   Surroundings around(points_, neighbours_, owner, origin, point);
   const float tiny = 0.05F * cell.x();
-  around.has_near = {around.near.left[kRight]<-tiny, around.near.left[kLeft]> tiny,
-                     around.near.up[kDown]<-0.2F * cell.y(), around.near.up[kUp]> 0.2F * cell.z()};
+  around.has_near = {around.near[kRight].left<-tiny, around.near[kLeft].left> tiny,
+                     around.near[kDown].up<-0.2F * cell.y(), around.near[kUp].up> 0.2F * cell.z()};
   return patch_of(around, cell, options_);
 }
 

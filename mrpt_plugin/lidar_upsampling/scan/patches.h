@@ -2,7 +2,6 @@
 // Copyright (c) 2026, the lidar_upsampling authors
 #pragma once
 
-#include <cstdint>
 #include <vector>
 
 #include "lidar_upsampling/scan/beam_pattern.h"

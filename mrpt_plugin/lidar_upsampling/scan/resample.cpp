@@ -7,8 +7,6 @@
 
 #include <algorithm>
 #include <numeric>
-#include <stdexcept>
-#include <string>
 #include <utility>
 
 #include "lidar_upsampling/scan/beams.h"
@@ -22,7 +20,7 @@ namespace lidar_upsampling {
 struct BeamResampler::Sensor {
   Sensor(const LidarScan& key, BeamPattern found, const ResampleOptions& options);
 
-  void join(const PatchMotions& motions, int at_rest, PatchSet& all,
+  void join(const PatchMotions& motions, int at_rest, std::vector<Patch>& all,
             std::vector<BeamRow>& rows) const;
   // @param other whose patches come after the own ones; null: none.
   void take_hits(const PatchMotions& motions, const std::vector<std::vector<BeamHit>>& hits,
@@ -42,18 +40,6 @@ struct BeamResampler::Sensor {
 
 namespace {
 
-void check(std::size_t num_points, const VirtualScan& moved) {
-  const std::size_t size = moved.scan.size();
-  const bool fits = moved.source_index.size() == size && moved.track_id.size() == size &&
-                    std::all_of(moved.source_index.begin(), moved.source_index.end(), [&](int i) {
-                      return i >= 0 && static_cast<std::size_t>(i) < num_points;
-                    });
-  if (!fits)
-    throw std::invalid_argument("resampling: the virtual scan of " + std::to_string(size) +
-                                " points was not made from the key scan of " +
-                                std::to_string(num_points));
-}
-
 LidarScan in_order(const LidarScan& key, const std::vector<int>& order) {
   LidarScan scan;
   scan.points = taken(key.points, order);
@@ -72,15 +58,11 @@ std::vector<int> inverse(const std::vector<int>& order) {
   return result;
 }
 
-// As far from its centre as a patch may be hit, 1: its edge.
-float farthest_reach(const ResampleOptions& options) {
-  return static_cast<float>(std::max(1 + options.overlap, options.max_gap));
-}
-
 // Makes those patches anew that a mover's outline changes: its own, and those beside it.
 // @param first of the scan's patches among all. @param at_rest the motion of its static scene.
 void replace_at_movers(const PatchMaker& maker, const BeamPattern& pattern,
-                       const PatchMotions& motions, int first, int at_rest, PatchSet& patches) {
+                       const PatchMotions& motions, int first, int at_rest,
+                       std::vector<Patch>& patches) {
   const std::vector<BeamNeighbours>& neighbours = maker.neighbours();
   const int* const motion = motions.of_patch.data() + first;
   std::vector<std::uint8_t> is_changed(neighbours.size(), 0);
@@ -96,11 +78,8 @@ void replace_at_movers(const PatchMaker& maker, const BeamPattern& pattern,
       }
   }
   for (int row = 0; row < pattern.num_rows(); ++row)
-    for (int i = pattern.rows[row].begin; i < pattern.rows[row].end; ++i) {
-      if (is_changed[i] == 0) continue;
-      patches.replacement[first + i] = static_cast<int>(patches.new_patches.size());
-      patches.new_patches.push_back(maker.make(row, i, motion));
-    }
+    for (int i = pattern.rows[row].begin; i < pattern.rows[row].end; ++i)
+      if (is_changed[i] != 0) patches[first + i] = maker.make(row, i, motion);
 }
 
 // What the beams of all rows hit; beams that hit nothing are left out.
@@ -181,18 +160,19 @@ void BeamResampler::Sensor::take_hits(const PatchMotions& motions,
 }
 
 BeamResampler::BeamResampler(const LidarScan& key_scan, const ResampleOptions& options)
-    : num_points_(key_scan.size()), options_(options) {
+    : options_(options) {
   if (auto pattern = find_beam_pattern(key_scan))
     sensor_ = std::make_unique<const Sensor>(key_scan, std::move(*pattern), options);
 }
 
 BeamResampler::~BeamResampler() = default;
 
-// Adds the rows of these patches, which come after those of the rows that are there already, and
-// makes those at movers anew. @param at_rest the motion of the static scene.
-void BeamResampler::Sensor::join(const PatchMotions& motions, int at_rest, PatchSet& all,
+// Adds these patches, those at movers made anew, and their rows, to those that are there already.
+// @param at_rest the motion of the static scene.
+void BeamResampler::Sensor::join(const PatchMotions& motions, int at_rest, std::vector<Patch>& all,
                                  std::vector<BeamRow>& rows) const {
-  const int first = rows.empty() ? 0 : rows.back().end;
+  const int first = static_cast<int>(all.size());
+  all.insert(all.end(), patches.begin(), patches.end());
   replace_at_movers(maker, pattern, motions, first, at_rest, all);
   for (BeamRow row : pattern.rows) {
     row.begin += first;
@@ -201,16 +181,7 @@ void BeamResampler::Sensor::join(const PatchMotions& motions, int at_rest, Patch
   }
 }
 
-const BeamResampler::Sensor* BeamResampler::sensor_of(const OtherView* other) const {
-  if (other == nullptr || !other->scan.sensor_) return nullptr;
-  check(other->scan.num_points_, other->moved);
-  const bool has_intensity = !sensor_->scan.intensity.empty();
-  const Sensor& sensor = *other->scan.sensor_;
-  return has_intensity && sensor.scan.intensity.empty() ? nullptr : &sensor;
-}
-
 VirtualScan BeamResampler::resample(VirtualScan moved, const OtherView* other) const {
-  check(num_points_, moved);
   moved.resampling = Resampling::no_beams;
   if (!sensor_) return moved;
   PatchMotions motions = motions_of(sensor_->position, moved);
@@ -218,26 +189,24 @@ VirtualScan BeamResampler::resample(VirtualScan moved, const OtherView* other) c
   if (largest_motion(sensor_->scan.points, motions) < options_.min_motion_m) return moved;
   moved.resampling = Resampling::done;
 
-  const Sensor* second = sensor_of(other);
-  const auto own_motions = static_cast<int>(motions.forth.size());
-  std::vector<Patch> both;
-  if (second != nullptr) {
-    motions.append(motions_of(second->position, other->moved));
-    both = sensor_->patches;
-    both.insert(both.end(), second->patches.begin(), second->patches.end());
-  }
-  PatchSet patches{second != nullptr ? both : sensor_->patches,
-                   std::vector<int>(motions.of_patch.size(), -1),
-                   {}};
+  std::vector<Patch> patches;
   std::vector<BeamRow> rows;
   sensor_->join(motions, 0, patches, rows);
-  if (second != nullptr) second->join(motions, own_motions, patches, rows);
+  const Sensor* second = other == nullptr ? nullptr : other->scan.sensor_.get();
+  const bool needs_intensity = !sensor_->scan.intensity.empty();
+  if (second != nullptr && needs_intensity && second->scan.intensity.empty()) second = nullptr;
+  if (second != nullptr) {
+    const auto at_rest = static_cast<int>(motions.forth.size());
+    motions.append(motions_of(second->position, other->moved));
+    second->join(motions, at_rest, patches, rows);
+  }
 
   const BeamPattern& pattern = sensor_->pattern;
+  // As far from its centre as a patch may be hit, 1: its edge.
+  const auto reach = static_cast<float>(std::max(1 + options_.overlap, options_.max_gap));
   std::vector<FootprintsOfRow> footprints(rows.size());
   tbb::parallel_for(std::size_t{0}, rows.size(), [&](std::size_t i) {
-    footprints[i] = FootprintsOfRow(rows[i], pattern, sensor_->columns, patches, motions,
-                                    farthest_reach(options_));
+    footprints[i] = find_footprints(rows[i], pattern, sensor_->columns, patches, motions, reach);
   });
   const auto hits = cast_all({pattern, patches, motions, footprints}, sensor_->beams, options_);
   sensor_->take_hits(motions, hits, second, moved);

@@ -13,8 +13,7 @@ struct ResampleOptions {
   double min_motion_m = 0.03;  ///< nothing is done where nothing has moved as far, on average
   double overlap = 0.1;  ///< of patches, share of their reach: closes the cracks of a moved surface
   double max_gap = 1.5;  ///< a beam between patches takes one this near, in units of its reach
-  double same_surface_m =
-      0.1;  ///< hits this far behind the plane of the first one are averaged with it
+  double same_surface_m = 0.1;  ///< hits so far behind the first one's plane: averaged with it
   PatchOptions patches;
 };
 
@@ -40,15 +39,11 @@ class BeamResampler {
   /// @param other shows what the key scan does not, and again what it does: where both show a
   /// surface, each weighs as it is near the beam; what lies before hides what lies behind,
   /// whichever shows it. Null: none.
-  /// @throw std::invalid_argument a scan that was moved is not the resampler's.
   [[nodiscard]] VirtualScan resample(VirtualScan moved, const OtherView* other = nullptr) const;
 
  private:
   struct Sensor;  // the key scan's beams and patches; none if it has none
 
-  [[nodiscard]] const Sensor* sensor_of(const OtherView* other) const;
-
-  std::size_t num_points_;
   ResampleOptions options_;
   std::unique_ptr<const Sensor> sensor_;
 };

@@ -5,21 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
-#include <string>
 
 #include "lidar_upsampling/units.h"
 
 namespace lidar_upsampling {
 namespace {
-
-void check(const SweepOptions& options, double period_s) {
-  if (!(options.reference >= 0 && options.reference <= 1))
-    throw std::invalid_argument("[sweep] reference = " + std::to_string(options.reference) +
-                                ": a share of the turn lies between 0 and 1");
-  if (!(period_s >= 0))
-    throw std::invalid_argument("a turn of the scanner takes " + std::to_string(period_s) +
-                                " s: check [sweep] period_ms and the scans' stamps");
-}
 
 std::vector<float> times_by_azimuth(const LidarScan& scan, const SweepOptions& options,
                                     double period_s) {
@@ -40,7 +30,6 @@ std::vector<float> times_by_azimuth(const LidarScan& scan, const SweepOptions& o
 std::vector<float> point_times(const LidarScan& scan, const SweepOptions& options,
                                double period_s) {
   if (options.scan_time == ScanTime::none) return {};
-  check(options, period_s);
   if (options.scan_time == ScanTime::azimuth)
     return period_s > 0 ? times_by_azimuth(scan, options, period_s) : std::vector<float>{};
   if (scan.time_s.size() != scan.size())
@@ -52,9 +41,6 @@ std::vector<float> point_times(const LidarScan& scan, const SweepOptions& option
 
 void deskew(LidarScan& scan, const std::vector<float>& times, const LidarPath& path) {
   if (times.empty()) return;
-  if (times.size() != scan.size())
-    throw std::invalid_argument("a scan of " + std::to_string(scan.size()) + " points with " +
-                                std::to_string(times.size()) + " times of points");
   constexpr double kStep_s = 0.002;
   const auto [first, last] = std::minmax_element(times.begin(), times.end());
   const double from = *first;

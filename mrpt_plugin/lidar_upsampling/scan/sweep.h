@@ -30,8 +30,7 @@ struct SweepOptions {
 /// @brief When each point was measured, in seconds from the scan's stamp.
 /// @param period_s of one turn, for `azimuth`; 0: not known yet, so nothing is.
 /// @return none for ScanTime::none, else one per point.
-/// @throw std::runtime_error `points`, but the scan has no times. @throw std::invalid_argument a
-/// reference outside of 0 to 1, a negative period.
+/// @throw std::runtime_error `points`, but the scan has no times.
 [[nodiscard]] std::vector<float> point_times(const LidarScan& scan, const SweepOptions& options,
                                              double period_s);
 
@@ -42,8 +41,7 @@ using LidarPath = std::function<Pose(double)>;
 /// from where the lidar was at the stamp. What moves on its own stays where it was at its own
 /// instant, told by `time_s`, which is set to `times`.
 /// @param times of each point, seconds from the stamp; empty: nothing is done.
-/// @param path taken every 2 ms, straight in between. @throw std::invalid_argument times of the
-/// wrong length.
+/// @param path taken every 2 ms, straight in between.
 void deskew(LidarScan& scan, const std::vector<float>& times, const LidarPath& path);
 
 /// Mean of the chosen points' times; 0 without times or points.
