@@ -6,7 +6,6 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "lidar_upsampling/stamp_text.h"
 #include "lidar_upsampling/text.h"
 
 namespace lidar_upsampling {

@@ -34,6 +34,14 @@ inline Stamp shifted(Stamp stamp, double dt) {
   return stamp + mrpt::Clock::duration(static_cast<std::int64_t>(dt * 1e7 + (dt < 0 ? -0.5 : 0.5)));
 }
 
+/// @brief A stamp as text: MRPT ticks (an integer), or UNIX seconds with decimals, read without
+/// passing through a double.
+/// @throw std::invalid_argument neither of the two.
+[[nodiscard]] Stamp parse_stamp(const std::string& text);
+
+/// UNIX seconds with all seven decimals, as `1317046450.1234567`.
+[[nodiscard]] std::string to_text(Stamp stamp);
+
 /// A point cloud whose points are referred to one instant. `points` are finite, in the lidar frame;
 /// every other per-point vector has either the length of `points` or none.
 struct LidarScan {
@@ -110,7 +118,6 @@ struct Detection {
   std::string class_name;
   double score = 1;
   int external_track = -1;  ///< identity given by the detector itself, -1 if none
-  std::vector<int> points;  ///< indices into the key scan where the detector knows them
 };
 
 /// What became of an object at one image.
@@ -175,13 +182,11 @@ struct VirtualScan {
   std::vector<int> track_id;                  ///< of each point, -1: static scene
   std::vector<ObjectMotion> objects;          ///< every candidate, whatever became of it
   Pose T_lidar_t_lidar_k = Pose::Identity();  ///< static scene (eq. 4, T_S)
-  Pose T_rest_lidar_t =
-      Pose::Identity();  ///< lidar frame at t in a frame at rest, the first scan's
+  Pose T_rest_lidar_t = Pose::Identity();     ///< to a frame at rest, the first scan's
   bool ego_extrapolated = false;
   Resampling resampling = Resampling::none;
   std::vector<OtherCluster> other_clusters;  ///< of the key scan, at its first use
-  std::vector<StageTime>
-      timing;  ///< of this scan's image, and of the key scan's stages at its first use
+  std::vector<StageTime> timing;  ///< of its image; at first use, of the key scan's stages, too
 };
 
 [[nodiscard]] const char* to_string(MotionStatus status);

@@ -11,7 +11,7 @@
 #include "end_to_end/pipeline.h"
 #include "export/scene_objects.h"
 #include "lidar_upsampling/io/carriers.h"
-#include "lidar_upsampling/stamp_text.h"
+#include "lidar_upsampling/types.h"
 
 namespace lidar_upsampling {
 namespace {

@@ -6,7 +6,7 @@
 #include "lidar_upsampling/ego/pose_file.h"
 #include "lidar_upsampling/io/carriers.h"
 #include "lidar_upsampling/io/images.h"
-#include "lidar_upsampling/stamp_text.h"
+#include "lidar_upsampling/types.h"
 
 namespace lidar_upsampling {
 namespace {

@@ -9,7 +9,6 @@
 
 #include "lidar_upsampling/io/images.h"
 #include "lidar_upsampling/io/rawlog_stream.h"
-#include "lidar_upsampling/stamp_text.h"
 
 namespace lidar_upsampling {
 namespace {

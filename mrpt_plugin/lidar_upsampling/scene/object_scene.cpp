@@ -94,18 +94,14 @@ void draw_arrow(const ObjectBox& box, const TColor& color, CSetOfObjects& lidar_
   lidar_frame.insert(arrow);
 }
 
-// The viewers' background is a darker gray.
-std::uint8_t gray(double share) {
-  return static_cast<std::uint8_t>(std::lround(130 + 125 * std::clamp(share, 0., 1.)));
-}
-
 TColor color_of_point(const LidarScan& scan, std::size_t i) {
   constexpr double kLowest_m = -2, kHighest_m = 4;
   const double share = scan.intensity.empty()
                            ? (scan.points[i].z() - kLowest_m) / (kHighest_m - kLowest_m)
                            : static_cast<double>(scan.intensity[i]);
-  const std::uint8_t level = gray(share);
-  return {level, level, level};
+  // The viewers' background is a darker gray.
+  const auto gray = static_cast<std::uint8_t>(std::lround(130 + 125 * std::clamp(share, 0., 1.)));
+  return {gray, gray, gray};
 }
 
 }  // namespace
