@@ -47,8 +47,8 @@ TEST(Ransac, the_model_of_lowest_cost_wins) {
   const auto result = ransac(estimator, RansacOptions{});
   ASSERT_TRUE(result.model);
   EXPECT_NEAR(*result.model, 5, 0.1);
-  EXPECT_EQ(result.stats.num_inliers, 7);
-  EXPECT_DOUBLE_EQ(result.stats.cost, estimator.score_model(*result.model).cost);
+  EXPECT_EQ(result.score.num_inliers, 7);
+  EXPECT_DOUBLE_EQ(result.score.cost, estimator.score_model(*result.model).cost);
 }
 
 TEST(Ransac, samples_hold_different_indices_and_reach_all_data) {
@@ -81,12 +81,12 @@ TEST(Ransac, stops_early_only_if_inliers_are_many) {
   RansacOptions options;
   options.min_iterations = 3;
   Consensus clean{{5, 5, 5, 5, 5, 5}, {}};
-  EXPECT_EQ(ransac(clean, options).stats.iterations, 3);
+  EXPECT_EQ(ransac(clean, options).iterations, 3);
   Consensus scattered{{0, 10, 20, 30, 40, 50, 60, 70, 80, 90, 100, 110}, {}};
-  EXPECT_EQ(ransac(scattered, options).stats.iterations, options.max_iterations);
+  EXPECT_EQ(ransac(scattered, options).iterations, options.max_iterations);
   // 0.7^2 of the samples are clean: ln(1 - 0.999) / ln(1 - 0.49) = 10.3.
   Consensus estimator{seven_of_ten(), {}};
-  EXPECT_EQ(ransac(estimator, options).stats.iterations, 11);
+  EXPECT_EQ(ransac(estimator, options).iterations, 11);
 }
 
 TEST(Ransac, local_optimisation_is_kept_where_it_lowers_the_cost) {

@@ -211,10 +211,10 @@ EarthMoverDistance exact_emd(const std::vector<Eigen::Vector3f>& first,
   for (Eigen::Index row = 0; row < count; ++row) {
     cost.row(row) = (to.colwise() - from.col(row)).colwise().squaredNorm();
   }
-  const DenseAssignment match = solve_dense_assignment(cost);
+  const std::vector<int> column_of_row = solve_assignment(cost);
   EarthMoverDistance sum;
   for (Eigen::Index row = 0; row < count; ++row) {
-    const auto column = static_cast<std::size_t>(match.column_of_row[row]);
+    const auto column = static_cast<std::size_t>(column_of_row[row]);
     const double squared =
         (first[row].cast<double>() - second[column].cast<double>()).squaredNorm();
     sum.squared_m2 += squared;

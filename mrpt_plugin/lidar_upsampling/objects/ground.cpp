@@ -101,14 +101,15 @@ std::optional<Plane> near_plane(const LidarScan& scan, const CellGrid& grid,
   plane_options.min_inliers = options.min_plane_cells;
   Eigen::Isometry3f T_up_lidar = Eigen::Isometry3f::Identity();
   T_up_lidar.linear() = level_rotation(plane_options.up).cast<float>();
-  std::vector<int> low;
+  std::vector<Eigen::Vector3f> low;
   for (const int point : lowest_points(scan.points, T_up_lidar, grid).index) {
-    if (point >= 0 && scan.points[point].norm() < options.plane_range) low.push_back(point);
+    if (point >= 0 && scan.points[point].norm() < options.plane_range)
+      low.push_back(scan.points[point]);
   }
-  const auto fit = estimate_plane(scan.points, low, plane_options);
+  const auto plane = estimate_plane(low, plane_options);
   // Seen from below it would be a ceiling.
-  if (!fit || fit->plane.d <= 0 || fit->plane.d > options.max_sensor_height) return std::nullopt;
-  return fit->plane;
+  if (!plane || plane->d <= 0 || plane->d > options.max_sensor_height) return std::nullopt;
+  return plane;
 }
 
 /// Follows the ground from cell to cell, those first that lie nearest to ground already found, so

@@ -5,41 +5,29 @@
 #include <algorithm>
 #include <limits>
 #include <stdexcept>
-#include <string>
 
 namespace lidar_upsampling {
 
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr int kNone = -1;
 
 using Costs = Eigen::Array<double, 1, Eigen::Dynamic>;
 
+/// Of a square matrix, which row gets each column.
 class Solver {
  public:
   explicit Solver(const CostMatrix& cost)
       : cost_(cost),
-        size_(static_cast<int>(cost.rows())),
         column_potential_(cost.colwise().minCoeff()),
-        column_of_row_(size_, kNone),
-        row_of_column_(size_, kNone) {}
+        row_of_column_(static_cast<std::size_t>(cost.cols()), kNone) {}
 
-  DenseAssignment solve() {
-    for (int row = 0; row < size_; ++row) augment(row);
-    DenseAssignment result{column_of_row_, Eigen::VectorXd(size_),
-                           column_potential_.matrix().transpose()};
-    for (int row = 0; row < size_; ++row) {
-      result.row_potential[row] = reduced(row, column_of_row_[row]);
-    }
-    return result;
+  const std::vector<int>& solve() {
+    for (int row = 0; row < cost_.rows(); ++row) augment(row);
+    return row_of_column_;
   }
 
  private:
-  [[nodiscard]] double reduced(int row, int column) const {
-    return cost_(row, column) - column_potential_[column];
-  }
-
   /// A column that Dijkstra has reached for good, and how far the row that holds it starts.
   struct Reached {
     int column, row;
@@ -50,15 +38,16 @@ class Solver {
   /// along the path to it. Reached columns are hidden by an infinite price, so that what is left
   /// of a step is arithmetic on whole rows.
   void augment(int root) {
+    constexpr double kInfinity = std::numeric_limits<double>::infinity();
     std::vector<Reached> reached{{kNone, root, 0, 0}};
     Costs price = column_potential_;
-    Costs distance = Costs::Constant(size_, kInfinity);
+    Costs distance = Costs::Constant(cost_.cols(), kInfinity);
     while (true) {
       const Reached& last = reached.back();
       distance = distance.min(cost_.row(last.row).array() - price + last.offset);
       const double least = distance.minCoeff();
       const int nearest = static_cast<int>(
-          std::find(distance.data(), distance.data() + size_, least) - distance.data());
+          std::find(distance.data(), distance.data() + distance.size(), least) - distance.data());
       const int row = row_of_column_[nearest];
       if (row == kNone) {
         for (std::size_t i = 1; i < reached.size(); ++i) {
@@ -66,7 +55,8 @@ class Solver {
         }
         return shift_pairs(nearest, reached);
       }
-      reached.push_back({nearest, row, least, least - reduced(row, nearest)});
+      reached.push_back(
+          {nearest, row, least, least - (cost_(row, nearest) - column_potential_[nearest])});
       distance[nearest] = kInfinity;
       price[nearest] = -kInfinity;
     }
@@ -75,54 +65,37 @@ class Solver {
   /// Follows the shortest path back: each column was reached by the row that makes it nearest, one
   /// of those reached before it.
   void shift_pairs(int column, const std::vector<Reached>& reached) {
-    for (std::size_t end = reached.size(); end > 0;) {
-      std::size_t before = 0;
-      for (std::size_t i = 1; i < end; ++i) {
-        before = reached[i].offset + cost_(reached[i].row, column) <
-                         reached[before].offset + cost_(reached[before].row, column)
-                     ? i
-                     : before;
-      }
-      pair(reached[before].row, column);
-      column = reached[before].column;
-      end = before;
+    const auto distance_by = [&](const Reached& by) { return by.offset + cost_(by.row, column); };
+    for (auto end = reached.end(); end != reached.begin();) {
+      end = std::min_element(reached.begin(), end, [&](const Reached& a, const Reached& b) {
+        return distance_by(a) < distance_by(b);
+      });
+      row_of_column_[column] = end->row;
+      column = end->column;
     }
   }
 
-  void pair(int row, int column) {
-    column_of_row_[row] = column;
-    row_of_column_[column] = row;
-  }
-
   const CostMatrix& cost_;
-  int size_;
   Costs column_potential_;
-  std::vector<int> column_of_row_, row_of_column_;
+  std::vector<int> row_of_column_;
 };
 
 }  // namespace
 
-DenseAssignment solve_dense_assignment(const CostMatrix& cost) {
-  if (cost.rows() != cost.cols() || !cost.allFinite()) {
-    throw std::invalid_argument("solve_dense_assignment: " + std::to_string(cost.rows()) +
-                                " rows, " + std::to_string(cost.cols()) +
-                                " columns; must be square and of finite costs");
-  }
-  return cost.size() == 0 ? DenseAssignment{} : Solver(cost).solve();
-}
-
-std::vector<int> solve_assignment(const Eigen::MatrixXd& cost, double max_cost) {
+std::vector<int> solve_assignment(const CostMatrix& cost, double max_cost) {
   // Whom the square's other rows or columns go to changes no total; capped, a forbidden pair costs
   // what leaving its row alone costs.
   const Eigen::Index size = std::max(cost.rows(), cost.cols());
   CostMatrix square = CostMatrix::Zero(size, size);
   square.topLeftCorner(cost.rows(), cost.cols()) =
       cost.unaryExpr([&](double value) { return value > max_cost ? max_cost : value; });
-  std::vector<int> column_of_row = solve_dense_assignment(square).column_of_row;
-  column_of_row.resize(static_cast<std::size_t>(cost.rows()));
-  for (Eigen::Index row = 0; row < cost.rows(); ++row) {
-    int& column = column_of_row[row];
-    if (column >= cost.cols() || cost(row, column) >= max_cost) column = kNone;
+  if (!square.allFinite()) throw std::invalid_argument("assignment: a cost is not finite");
+  std::vector<int> column_of_row(static_cast<std::size_t>(cost.rows()), kNone);
+  if (size == 0) return column_of_row;
+  const std::vector<int> row_of_column = Solver(square).solve();
+  for (int column = 0; column < cost.cols(); ++column) {
+    const int row = row_of_column[column];
+    if (row < cost.rows() && cost(row, column) < max_cost) column_of_row[row] = column;
   }
   return column_of_row;
 }

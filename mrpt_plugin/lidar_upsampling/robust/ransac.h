@@ -22,21 +22,16 @@ struct RansacOptions {
   std::uint32_t seed = 1;
 };
 
-struct RansacStats {
-  int iterations = 0;
-  int num_inliers = 0;
+struct ModelScore {
   double cost = std::numeric_limits<double>::infinity();
+  int num_inliers = 0;
 };
 
 template <typename Model>
 struct RansacResult {
   std::optional<Model> model;  ///< none if no sample gave a model of finite cost
-  RansacStats stats;
-};
-
-struct ModelScore {
-  double cost = std::numeric_limits<double>::infinity();
-  int num_inliers = 0;
+  ModelScore score;            ///< of the model
+  int iterations = 0;
 };
 
 /// @throw std::invalid_argument
@@ -84,17 +79,16 @@ inline int needed_iterations(double inlier_ratio, std::size_t sample_size,
 template <typename Estimator>
 void keep_better(Estimator& estimator, typename Estimator::Model model,
                  RansacResult<typename Estimator::Model>& best) {
-  const auto keep = [&best](const typename Estimator::Model& candidate, const ModelScore& score) {
-    best.model = candidate;
-    best.stats.cost = score.cost;
-    best.stats.num_inliers = score.num_inliers;
+  const auto keep_if_better = [&] {
+    const ModelScore score = estimator.score_model(model);
+    if (!(score.cost < best.score.cost)) return false;
+    best.model = model;
+    best.score = score;
+    return true;
   };
-  const ModelScore score = estimator.score_model(model);
-  if (!(score.cost < best.stats.cost)) return;
-  keep(model, score);
+  if (!keep_if_better()) return;
   estimator.refine_model(model);
-  const ModelScore refined = estimator.score_model(model);
-  if (refined.cost < score.cost) keep(model, refined);
+  keep_if_better();
 }
 
 }  // namespace ransac_detail
@@ -121,16 +115,15 @@ RansacResult<typename Estimator::Model> ransac(
   std::mt19937 generator(options.seed);
   std::vector<typename Estimator::Model> models;
   const auto needed = [&] {
-    return ransac_detail::needed_iterations(static_cast<double>(best.stats.num_inliers) / num_data,
+    return ransac_detail::needed_iterations(static_cast<double>(best.score.num_inliers) / num_data,
                                             Estimator::sample_size, options);
   };
-  for (int limit = needed(); best.stats.iterations < limit; ++best.stats.iterations) {
+  for (int limit = needed(); best.iterations < limit; ++best.iterations) {
     models.clear();
     estimator.generate_models(
         ransac_detail::draw_sample<Estimator::sample_size>(num_data, generator), &models);
-    const double cost_before = best.stats.cost;
     for (const auto& model : models) ransac_detail::keep_better(estimator, model, best);
-    if (best.stats.cost < cost_before) limit = needed();
+    limit = needed();
   }
   return best;
 }

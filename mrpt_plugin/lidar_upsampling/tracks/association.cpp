@@ -50,7 +50,7 @@ std::vector<int> associate(const std::vector<ObjectTrack>& tracks,
                            const std::vector<ScanObject>& objects, const TrackedScan& scan,
                            const TrackOptions& options) {
   if (tracks.empty()) return std::vector<int>(objects.size(), -1);
-  Eigen::MatrixXd cost(objects.size(), tracks.size());
+  CostMatrix cost(objects.size(), tracks.size());
   for (Eigen::Index i = 0; i < cost.rows(); ++i)
     for (Eigen::Index j = 0; j < cost.cols(); ++j)
       cost(i, j) = std::min(0., -log_ratio(tracks[j], objects[i], scan, options));
