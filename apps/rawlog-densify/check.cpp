@@ -198,8 +198,8 @@ class Checker {
       };
     if (!previous_ || previous_->stamp >= stamp) return nullptr;
     const double dt = seconds_between(previous_->stamp, stamp);
-    const auto registration = register_scans(
-        previous_->points, scan.points, exp_se3(Twist(rate_ * dt)), job_.config.scan_registration);
+    const auto registration =
+        register_scans(previous_->points, scan.points, exp_se3(Twist(rate_ * dt)));
     if (!registration) return nullptr;
     rate_ = log_se3(registration->T_target_source) / dt;
     return [rate = rate_](double t) { return exp_se3(Twist(rate * t)); };

@@ -15,7 +15,6 @@
 #include "lidar_upsampling/objects/object_points.h"
 #include "lidar_upsampling/objects/point_tracks.h"
 #include "lidar_upsampling/objects/scene_segments.h"
-#include "lidar_upsampling/registration/scan_registration.h"
 #include "lidar_upsampling/scan/compose.h"
 #include "lidar_upsampling/scan/resample.h"
 #include "lidar_upsampling/scan/sweep.h"
@@ -61,7 +60,6 @@ struct Config : public mrpt::config::CLoadableOptions {
   PoseFileOptions pose_file;
   CameraEgoOptions camera_ego;
   StaticPointOptions static_points;
-  RegistrationOptions scan_registration;
   DetectorOptions detector;
   SegmentOptions segments;
   ObjectPointOptions object_points;

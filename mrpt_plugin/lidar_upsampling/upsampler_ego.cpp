@@ -106,9 +106,8 @@ void LidarUpsampler::step_between_scans(const PreparedScan& before, PreparedScan
   if (given && !ego_motion_.fuses()) return;
   const Stopwatch watch(timing_, "scan registration");
   // Without poses all that stands out is needed: the most of it is parked.
-  const auto registration =
-      register_scans(given ? standing_points(before) : before.scan.points, now.scan.points,
-                     now.T_scan_before, config_.scan_registration);
+  const auto registration = register_scans(given ? standing_points(before) : before.scan.points,
+                                           now.scan.points, now.T_scan_before);
   if (!registration) return;
   EgoStep step = step_of(*registration);
   if (given) {

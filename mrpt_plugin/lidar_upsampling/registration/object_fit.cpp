@@ -5,7 +5,6 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "lidar_upsampling/se3.h"
 
@@ -89,16 +88,13 @@ Sight sight_in(const ObjectFit& fit, const Eigen::Vector3f& place) {
   return fit.clues.seen == nullptr ? Sight::open : fit.clues.seen->at(place);
 }
 
-double score_of(const ObjectFit& fit, const Pose& T_target_object, int stride, double worse_than) {
+double score_of(const ObjectFit& fit, const Pose& T_target_object, int stride) {
   const Eigen::Isometry3f T = T_target_object.cast<float>();
   constexpr auto kFarthest = static_cast<float>(kScoreCut * kScoreCut);
   const double just_covered = fit.options.overlap_distance_m;
   double sum = 0;
   int count = 0, visible = 0;
-  const std::size_t asked = (fit.points.size() + stride - 1) / stride;
-  const double sum_of_worse = worse_than * worse_than * static_cast<double>(asked);
   for (std::size_t i = 0; i < fit.points.size(); i += stride, ++count) {
-    if (sum > sum_of_worse) return std::numeric_limits<double>::infinity();
     const Eigen::Vector3f place = T * fit.points[i];
     const Sight sight = sight_in(fit, place);
     visible += sight == Sight::hidden ? 0 : 1;
@@ -107,19 +103,9 @@ double score_of(const ObjectFit& fit, const Pose& T_target_object, int stride, d
     else if (sight == Sight::seen_through)
       sum += kScoreCut * kScoreCut;
     else
-      sum += std::min(fit.target.nearest(place, kFarthest).sq_distance, kFarthest);
+      sum += fit.target.nearest(place, kFarthest).sq_distance;
   }
   return are_enough(fit, visible, count) ? std::sqrt(sum / count) : kScoreCut;
-}
-
-double rank_of(const ObjectFit& fit, const Pose& T_target_object, double score) {
-  // Neighbouring points err alike: all of them speak as loud as ten that fit to a decimetre.
-  constexpr double kSqScorePerChiSquare = 0.1 * 0.1 / 10;  // m^2
-  if (fit.clues.expected == nullptr) return score;
-  const Eigen::Vector2d astray =
-      (T_target_object * fit.centroid).head<2>() - fit.clues.expected->centroid;
-  const double chi_square = astray.dot(fit.clues.expected->covariance.ldlt().solve(astray));
-  return std::sqrt(score * score + kSqScorePerChiSquare * chi_square);
 }
 
 SurfaceResidual residual_of(const ObjectFit& fit, const Pose& T_target_object) {
@@ -198,10 +184,7 @@ Fitted converge(const ObjectFit& problem, const Pose& guess, double stop) {
     }
     scale = std::max(problem.options.kernel_m, 0.75 * scale);
   }
-  const double score = score_of(problem, T);
-  return {T, score, rank_of(problem, T, score)};
+  return {T, score_of(problem, T)};
 }
-
-Pose shifted_by(const Pose& T, double x, double y) { return Eigen::Translation3d(x, y, 0) * T; }
 
 }  // namespace lidar_upsampling

@@ -2,7 +2,6 @@
 // Copyright (c) 2026, the lidar_upsampling authors
 #pragma once
 
-#include <limits>
 #include <vector>
 
 #include "lidar_upsampling/registration/object_registration.h"
@@ -29,12 +28,7 @@ constexpr double kScoreCut = 0.5;
 /// just covered: neither for nor much against a place. Where the sensor saw through a point it is
 /// as bad as can be, and so is a place of which too little is visible.
 /// @param stride every so many points are asked.
-/// @param worse_than what is sure to score more than this need not be told how much more.
-[[nodiscard]] double score_of(const ObjectFit& fit, const Pose& T_target_object, int stride = 1,
-                              double worse_than = std::numeric_limits<double>::infinity());
-
-/// @brief The score, with what an unexpected place adds, m.
-[[nodiscard]] double rank_of(const ObjectFit& fit, const Pose& T_target_object, double score);
+[[nodiscard]] double score_of(const ObjectFit& fit, const Pose& T_target_object, int stride = 1);
 
 /// What is left between an object and its target.
 struct SurfaceResidual {
@@ -61,14 +55,11 @@ struct Sampling {
 struct Fitted {
   Pose T = Pose::Identity();  ///< T_target_object
   double score = kScoreCut;
-  double rank = kScoreCut;  ///< the score, with what an unexpected place adds
 };
 
 /// @brief ICP from one guess: point to plane with a little point to point, Geman-McClure weights
 /// whose scale shrinks to the options', softly level with the ego-motion.
 /// @param stop a step this short ends the search, m and rad.
 [[nodiscard]] Fitted converge(const ObjectFit& problem, const Pose& guess, double stop = 2e-4);
-
-[[nodiscard]] Pose shifted_by(const Pose& T, double x, double y);
 
 }  // namespace lidar_upsampling

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 
 #include "lidar_upsampling/registration/object_fit.h"
@@ -18,6 +17,8 @@ struct Ambiguity {
   double spread_m = 0;                              ///< how far shifted starts go astray
   Eigen::Matrix2d slack = Eigen::Matrix2d::Zero();  ///< m^2, level covariance told by them
 };
+
+Pose shifted_by(const Pose& T, double x, double y) { return Eigen::Translation3d(x, y, 0) * T; }
 
 /// Whether the object may as well be out of the target's sight there: all of it is hidden, and what
 /// it was matched to need not be its own, as it would not have been seen from where the object was.
@@ -85,10 +86,8 @@ Fitted search_start(const ObjectFit& problem) {
   for (int ix = -reach; ix <= reach; ++ix) {
     for (int iy = -reach; iy <= reach; ++iy) {
       const Pose start = shifted_by(problem.T_level, ix * kCell, iy * kCell);
-      const double score = score_of(problem, start, stride, best.score);
-      if (score < best.score) {
-        best = {start, score, score};
-      }
+      const double score = score_of(problem, start, stride);
+      if (score < best.score) best = {start, score};
     }
   }
   return best;
@@ -96,33 +95,29 @@ Fitted search_start(const ObjectFit& problem) {
 
 Fitted best_fit(const ObjectFit& problem, const std::vector<Pose>& guesses) {
   Fitted best;
-  if (problem.clues.expected != nullptr) best.rank = std::numeric_limits<double>::infinity();
   for (const Pose& guess : guesses) {
     if (&guess != &guesses.front() && guess.isApprox(guesses.front(), 1e-9)) continue;
     const Fitted fitted = converge(problem, guess);
-    if (fitted.rank < best.rank) {
-      best = fitted;
-    }
+    if (fitted.score < best.score) best = fitted;
   }
   if (problem.options.search_m <= 0) return best;
   const Pose start = search_start(problem).T;
   if (start.isApprox(guesses.front(), 1e-9)) return best;  // has been gone from already
   // A far-off start may land on a neighbour that looks alike: it must be clearly better.
   const Fitted searched = converge(problem, start);
-  return searched.rank < 0.8 * best.rank ? searched : best;
+  return searched.score < 0.8 * best.score ? searched : best;
 }
 
 }  // namespace
 
-ObjectRegistrationOptions options_between_scans(int max_points, int max_iterations,
-                                                double search_m) {
+ObjectRegistrationOptions options_between_scans() {
   ObjectRegistrationOptions options;
   options.min_points = 10;
+  options.max_points = 120;
+  options.search_m = 0;
   options.max_shift_m = 0.6;
   options.weigh_as = 10;
-  options.max_points = max_points;
-  options.max_iterations = max_iterations;
-  options.search_m = search_m;
+  options.max_iterations = 15;
   return options;
 }
 

@@ -30,18 +30,10 @@ struct ObjectRegistrationOptions {
 };
 
 /// For objects of ten points or more from one scan to the next, where neighbours err alike.
-[[nodiscard]] ObjectRegistrationOptions options_between_scans(int max_points, int max_iterations,
-                                                              double search_m);
-
-/// Where an object is expected: level place of its centroid in the target's frame.
-struct ExpectedPlace {
-  Eigen::Vector2d centroid = Eigen::Vector2d::Zero();
-  Eigen::Matrix2d covariance = Eigen::Matrix2d::Identity();  ///< m^2
-};
+[[nodiscard]] ObjectRegistrationOptions options_between_scans();
 
 /// What else is known of an object and its target; null: nothing.
 struct RegistrationClues {
-  const ExpectedPlace* expected = nullptr;  ///< an answer far from there must fit the better
   const SeenSpace* seen = nullptr;  ///< by the target's sensor: what is hidden from it needs no
                                     ///< counterpart, where it saw through the object cannot be
   const SeenSpace* seen_with_object = nullptr;  ///< by the object's own sensor then: without it

@@ -6,45 +6,6 @@
 
 namespace lidar_upsampling {
 
-namespace {
-
-// nanoflann's own set for any number of neighbours takes a tenth more time for one.
-class NearestOne {
- public:
-  using DistanceType = float;
-
-  explicit NearestOne(float max_sq_distance) : nearest_{-1, max_sq_distance} {}
-
-  [[nodiscard]] const PointIndex::Neighbor& nearest() const { return nearest_; }
-  [[nodiscard]] std::size_t size() const { return nearest_.index < 0 ? 0 : 1; }
-  [[nodiscard]] bool full() const { return true; }
-  [[nodiscard]] float worstDist() const { return nearest_.sq_distance; }
-  bool addPoint(float sq_distance, std::uint32_t index) {
-    if (sq_distance < nearest_.sq_distance) nearest_ = {static_cast<int>(index), sq_distance};
-    return true;
-  }
-
- private:
-  PointIndex::Neighbor nearest_;
-};
-
-struct AllWithin {
-  using DistanceType = float;
-
-  float max_sq_distance;
-  std::vector<PointIndex::Neighbor>& neighbors;
-
-  [[nodiscard]] std::size_t size() const { return neighbors.size(); }
-  [[nodiscard]] bool full() const { return true; }
-  [[nodiscard]] float worstDist() const { return max_sq_distance; }
-  bool addPoint(float sq_distance, std::uint32_t index) const {
-    neighbors.push_back({static_cast<int>(index), sq_distance});
-    return true;
-  }
-};
-
-}  // namespace
-
 struct PointIndex::Tree {
   // What nanoflann asks of a data set; the names are its own.
   struct Cloud {
@@ -69,19 +30,18 @@ struct PointIndex::Tree {
 };
 
 PointIndex::PointIndex(std::vector<Eigen::Vector3f> points)
-    : tree_(std::make_unique<Tree>(std::move(points))) {}
-PointIndex::~PointIndex() = default;
-PointIndex::PointIndex(PointIndex&&) noexcept = default;
-PointIndex& PointIndex::operator=(PointIndex&&) noexcept = default;
+    : tree_(std::make_shared<Tree>(std::move(points))) {}
 
 const std::vector<Eigen::Vector3f>& PointIndex::points() const { return tree_->cloud.points; }
 
 PointIndex::Neighbor PointIndex::nearest(const Eigen::Vector3f& query,
                                          float max_sq_distance) const {
-  NearestOne found(max_sq_distance);
-  tree_->index.findNeighbors(found, query.data(), {});
-  if (found.size() == 0) return {-1, std::numeric_limits<float>::max()};
-  return found.nearest();
+  Neighbor found;
+  nanoflann::KNNResultSet<float, int> one(1);
+  one.init(&found.index, &found.sq_distance);
+  found.sq_distance = max_sq_distance;  // what it has to be nearer than
+  tree_->index.findNeighbors(one, query.data(), {});
+  return found;
 }
 
 void PointIndex::nearest(const Eigen::Vector3f& query, int k,
@@ -97,9 +57,8 @@ void PointIndex::nearest(const Eigen::Vector3f& query, int k,
 }
 
 void PointIndex::within(const Eigen::Vector3f& query, float max_sq_distance,
-                        std::vector<Neighbor>& neighbors) const {
-  neighbors.clear();
-  AllWithin found{max_sq_distance, neighbors};
+                        std::vector<std::pair<int, float>>& neighbors) const {
+  nanoflann::RadiusResultSet<float, int> found(max_sq_distance, neighbors);
   tree_->index.findNeighbors(found, query.data(), {});
 }
 

@@ -10,18 +10,16 @@
 
 namespace lidar_upsampling {
 
-/// @brief A k-d tree over points that it owns. Queries are safe from any number of threads.
+/// @brief A k-d tree over points that it owns, shared by its copies. Queries are safe from any
+/// number of threads.
 class PointIndex {
  public:
   struct Neighbor {
-    int index = -1;  ///< into points(); -1: there is none
-    float sq_distance = 0;
+    int index = -1;         ///< into points(); -1: there is none
+    float sq_distance = 0;  ///< where there is none, that asked for
   };
 
   explicit PointIndex(std::vector<Eigen::Vector3f> points);
-  ~PointIndex();
-  PointIndex(PointIndex&&) noexcept;
-  PointIndex& operator=(PointIndex&&) noexcept;
 
   [[nodiscard]] const std::vector<Eigen::Vector3f>& points() const;
 
@@ -32,13 +30,13 @@ class PointIndex {
   /// Fills `neighbors` with the k nearest (fewer if there are not so many), nearest first.
   void nearest(const Eigen::Vector3f& query, int k, std::vector<Neighbor>& neighbors) const;
 
-  /// Fills `neighbors` with all that lie nearer, in no certain order.
+  /// Fills `neighbors` with all that lie nearer, in no certain order: index and squared distance.
   void within(const Eigen::Vector3f& query, float max_sq_distance,
-              std::vector<Neighbor>& neighbors) const;
+              std::vector<std::pair<int, float>>& neighbors) const;
 
  private:
   struct Tree;
-  std::unique_ptr<Tree> tree_;
+  std::shared_ptr<const Tree> tree_;
 };
 
 }  // namespace lidar_upsampling

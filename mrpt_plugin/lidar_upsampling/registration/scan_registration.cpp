@@ -18,6 +18,13 @@ namespace lidar_upsampling {
 
 namespace {
 
+constexpr double kVoxel_m = 0.5;                       // both scans: one point per cube
+constexpr std::size_t kMaxPoints = 5000;               // of the source, after thinning
+constexpr double kMinRange_m = 2.5, kMaxRange_m = 80;  // nearer points are the vehicle itself
+constexpr double kMaxCorrespondence_m = 1.5;
+constexpr double kKernel_m = 0.1;        // Geman-McClure scale at the end, a fifth of the first
+constexpr double kMinInlierShare = 0.4;  // points nearer than three kernel scales to their plane
+constexpr int kMaxIterations = 30;
 constexpr int kMinCorrespondences = 60;
 // A direction counts as free if this share of the points would hold it: the normals' own noise
 // does.
@@ -30,33 +37,19 @@ struct Match {
   bool valid = false;
 };
 
-std::vector<Eigen::Vector3f> thinned(const std::vector<Eigen::Vector3f>& points,
-                                     const RegistrationOptions& options) {
+std::vector<Eigen::Vector3f> thinned(const std::vector<Eigen::Vector3f>& points) {
   std::vector<Eigen::Vector3f> kept;
-  kept.reserve(points.size());
-  const double sq_min = options.min_range_m * options.min_range_m;
-  const double sq_max = options.max_range_m * options.max_range_m;
-  std::copy_if(points.begin(), points.end(), std::back_inserter(kept), [&](const auto& point) {
+  std::copy_if(points.begin(), points.end(), std::back_inserter(kept), [](const auto& point) {
     const double sq_range = point.squaredNorm();
-    return sq_range > sq_min && sq_range < sq_max;
+    return sq_range > kMinRange_m * kMinRange_m && sq_range < kMaxRange_m * kMaxRange_m;
   });
-  return group_by_voxel(kept, options.voxel_m).means;
+  return group_by_voxel(kept, kVoxel_m).means;
 }
 
-std::vector<Eigen::Vector3f> every_nth(std::vector<Eigen::Vector3f> points, int max_points) {
-  const double stride = static_cast<double>(points.size()) / max_points;
-  if (stride > 1) {
-    for (int i = 0; i < max_points; ++i) {
-      points[i] = points[static_cast<std::size_t>(i * stride)];
-    }
-    points.resize(max_points);
-  }
-  return points;
-}
-
-Match match_point(const Eigen::Vector3f& point, const Surface& target, double max_distance) {
+Match match_point(const Eigen::Vector3f& point, const Surface& target) {
+  constexpr auto kReach = static_cast<float>(kMaxCorrespondence_m * kMaxCorrespondence_m);
   Match match;
-  const auto nearest = target.nearest(point, static_cast<float>(max_distance * max_distance));
+  const auto nearest = target.nearest(point, kReach);
   if (nearest.index < 0) {
     return match;
   }
@@ -72,11 +65,11 @@ Match match_point(const Eigen::Vector3f& point, const Surface& target, double ma
 }
 
 void match_all(const std::vector<Eigen::Vector3f>& source, const Surface& target,
-               const Pose& T_target_source, double max_distance, std::vector<Match>& matches) {
+               const Pose& T_target_source, std::vector<Match>& matches) {
   const Eigen::Isometry3f T = T_target_source.cast<float>();
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, source.size(), 256), [&](const auto& range) {
     for (std::size_t i = range.begin(); i < range.end(); ++i) {
-      matches[i] = match_point(T * source[i], target, max_distance);
+      matches[i] = match_point(T * source[i], target);
     }
   });
 }
@@ -120,16 +113,15 @@ std::optional<Matrix6d> covariance_of(const Matrix6d& H, int num_matches, double
 }
 
 std::optional<Registration> iterate(const std::vector<Eigen::Vector3f>& source,
-                                    const Surface& target, const Pose& guess,
-                                    const RegistrationOptions& options) {
+                                    const Surface& target, const Pose& guess) {
   Registration result;
   result.T_target_source = guess;
   std::vector<Match> matches(source.size());
   NormalEquations sum;
-  double scale = 5 * options.kernel_m;
-  for (int i = 0; i < options.max_iterations; ++i) {
-    match_all(source, target, result.T_target_source, options.max_correspondence_m, matches);
-    sum = accumulate(matches, scale, 3 * options.kernel_m);
+  double scale = 5 * kKernel_m;
+  for (int i = 0; i < kMaxIterations; ++i) {
+    match_all(source, target, result.T_target_source, matches);
+    sum = accumulate(matches, scale, 3 * kKernel_m);
     if (sum.num_matches < kMinCorrespondences) {
       return std::nullopt;
     }
@@ -138,16 +130,16 @@ std::optional<Registration> iterate(const std::vector<Eigen::Vector3f>& source,
       return std::nullopt;
     }
     result.T_target_source = renormalized(exp_se3(step) * result.T_target_source);
-    const bool narrow = scale <= options.kernel_m;
+    const bool narrow = scale <= kKernel_m;
     if (narrow && step.head<3>().norm() < 5e-5 && step.tail<3>().norm() < 5e-4) {
       break;
     }
-    scale = std::max(options.kernel_m, 0.6 * scale);
+    scale = std::max(kKernel_m, 0.6 * scale);
   }
   result.inlier_share = static_cast<double>(sum.num_inliers) / sum.num_matches;
   result.rmse_m = std::sqrt(sum.sq_residuals / std::max(1, sum.num_inliers));
   const auto covariance = covariance_of(sum.H, sum.num_matches, result.rmse_m);
-  if (!covariance || result.inlier_share < options.min_inlier_share) {
+  if (!covariance || result.inlier_share < kMinInlierShare) {
     return std::nullopt;
   }
   result.covariance = *covariance;
@@ -158,17 +150,15 @@ std::optional<Registration> iterate(const std::vector<Eigen::Vector3f>& source,
 
 std::optional<Registration> register_scans(const std::vector<Eigen::Vector3f>& points_source,
                                            const std::vector<Eigen::Vector3f>& points_target,
-                                           const Pose& T_target_source_guess,
-                                           const RegistrationOptions& options) {
+                                           const Pose& T_target_source_guess) {
   std::vector<Eigen::Vector3f> source, target;
-  tbb::parallel_invoke(
-      [&] { source = every_nth(thinned(points_source, options), options.max_points); },
-      [&] { target = thinned(points_target, options); });
+  tbb::parallel_invoke([&] { source = evenly_thinned(thinned(points_source), kMaxPoints); },
+                       [&] { target = thinned(points_target); });
   if (source.size() < kMinCorrespondences || target.size() < kMinCorrespondences) {
     return std::nullopt;
   }
   const Surface surface = Surface(std::move(target));
-  return iterate(source, surface, T_target_source_guess, options);
+  return iterate(source, surface, T_target_source_guess);
 }
 
 }  // namespace lidar_upsampling

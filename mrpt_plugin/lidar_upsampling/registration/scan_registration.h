@@ -10,17 +10,6 @@
 
 namespace lidar_upsampling {
 
-struct RegistrationOptions {
-  double voxel_m = 0.5;      ///< both scans are thinned to one point per cube
-  int max_points = 5000;     ///< of the source, after thinning
-  double min_range_m = 2.5;  ///< nearer points are the vehicle itself
-  double max_range_m = 80;
-  double max_correspondence_m = 1.5;
-  double kernel_m = 0.1;          ///< Geman-McClure scale at the end; starts five times as wide
-  double min_inlier_share = 0.4;  ///< points nearer than three kernel scales to their plane
-  int max_iterations = 30;
-};
-
 /// The rigid motion between two scans, with the evidence.
 struct Registration {
   Pose T_target_source = Pose::Identity();
@@ -37,7 +26,6 @@ struct Registration {
 /// m).
 [[nodiscard]] std::optional<Registration> register_scans(
     const std::vector<Eigen::Vector3f>& points_source,
-    const std::vector<Eigen::Vector3f>& points_target, const Pose& T_target_source_guess,
-    const RegistrationOptions& options = {});
+    const std::vector<Eigen::Vector3f>& points_target, const Pose& T_target_source_guess);
 
 }  // namespace lidar_upsampling

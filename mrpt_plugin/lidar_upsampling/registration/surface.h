@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <mutex>
 #include <vector>
 
 #include "lidar_upsampling/registration/point_index.h"
@@ -27,9 +28,6 @@ struct NormalOptions {
 class Surface {
  public:
   explicit Surface(std::vector<Eigen::Vector3f> points, const NormalOptions& options = {});
-  ~Surface();
-  Surface(Surface&&) noexcept;
-  Surface& operator=(Surface&&) noexcept;
 
   [[nodiscard]] const std::vector<Eigen::Vector3f>& points() const { return index_.points(); }
   /// @param max_sq_distance as PointIndex has it.
@@ -45,11 +43,10 @@ class Surface {
   [[nodiscard]] float spacing(int point) const;
 
  private:
-  struct Known;  // normals so far
-
   PointIndex index_;
   NormalOptions options_;
-  std::unique_ptr<Known> known_;
+  mutable std::vector<Eigen::Vector3f> normals_;
+  std::unique_ptr<std::once_flag[]> is_known_;  ///< of each normal
 };
 
 }  // namespace lidar_upsampling

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <stdexcept>
 #include <string>
+#include <unordered_map>
 
 namespace lidar_upsampling {
 namespace {
@@ -22,32 +23,6 @@ std::uint64_t voxel_key(const Eigen::Vector3f& point, float per_metre) {
   return key;
 }
 
-/// Numbers keys from 0 as they first appear; std::unordered_map takes four times as long.
-class KeyNumbering {
- public:
-  explicit KeyNumbering(std::size_t max_keys) {
-    std::size_t size = 16;
-    while (size < 2 * max_keys) size *= 2;
-    slots_.assign(size, {0, -1});
-  }
-
-  int number_of(std::uint64_t key) {
-    const std::size_t mask = slots_.size() - 1;
-    std::size_t at = (key * 0x9E3779B97F4A7C15ULL >> 20) & mask;
-    while (slots_[at].number >= 0 && slots_[at].key != key) at = (at + 1) & mask;
-    if (slots_[at].number < 0) slots_[at] = {key, count_++};
-    return slots_[at].number;
-  }
-
- private:
-  struct Slot {
-    std::uint64_t key;
-    int number;
-  };
-  std::vector<Slot> slots_;
-  int count_ = 0;
-};
-
 }  // namespace
 
 VoxelGroups group_by_voxel(const std::vector<Eigen::Vector3f>& points, double side_m) {
@@ -57,11 +32,13 @@ VoxelGroups group_by_voxel(const std::vector<Eigen::Vector3f>& points, double si
   VoxelGroups groups;
   groups.of_point.reserve(points.size());
   const auto per_metre = static_cast<float>(1 / side_m);
-  KeyNumbering numbering(points.size());
+  std::unordered_map<std::uint64_t, int> number_of;
   std::vector<int> counts;
   for (const Eigen::Vector3f& point : points) {
-    const int group = numbering.number_of(voxel_key(point, per_metre));
-    if (group == static_cast<int>(counts.size())) {
+    const int next = static_cast<int>(counts.size());
+    const auto [place, is_new] = number_of.try_emplace(voxel_key(point, per_metre), next);
+    const int group = place->second;
+    if (is_new) {
       groups.means.emplace_back(Eigen::Vector3f::Zero());
       counts.push_back(0);
     }

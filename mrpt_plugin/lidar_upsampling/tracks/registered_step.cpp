@@ -55,7 +55,7 @@ ObjectRegistration register_backwards(const ObjectScans& scans, std::vector<Pose
                                       const ObjectRegistrationOptions& options) {
   for (Pose& guess : guesses) guess = guess.inverse();
   ObjectRegistration result = register_object(scans.now, Surface(scans.before), guesses, options,
-                                              {nullptr, scans.seen_before, scans.seen_now});
+                                              {scans.seen_before, scans.seen_now});
   result.T_target_object = result.T_target_object.inverse();
   const Eigen::Matrix2d turn = result.T_target_object.linear().topLeftCorner<2, 2>();
   result.slack = turn * result.slack * turn.transpose();
@@ -67,7 +67,7 @@ ObjectRegistration register_views(const ObjectScans& scans, const std::vector<Po
                                   const ObjectRegistrationOptions& options) {
   if (scans.before.size() > scans.now.size()) return register_backwards(scans, guesses, options);
   return register_object(scans.before, Surface(scans.now), guesses, options,
-                         {nullptr, scans.seen_now, scans.seen_before});
+                         {scans.seen_now, scans.seen_before});
 }
 
 /// How well a registration tells a step. What scatters about surfaces averages out; what lies off
@@ -107,7 +107,7 @@ std::optional<PlanarStep> step_of(const ObjectRegistration& registration, const 
 
 std::optional<PlanarStep> registered_step(const ObjectScans& scans,
                                           const Eigen::Matrix3d& R_rest_lidar_k) {
-  ObjectRegistrationOptions options = options_between_scans(120, 15, 0);
+  ObjectRegistrationOptions options = options_between_scans();
   options.yaw_sigma_rad = scans.turn_sigma_rad;
   if (!can_be_registered(scans, options)) return {};
   const Pose& T_ego = scans.T_lidar_k_lidar_before;
