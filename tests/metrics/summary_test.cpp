@@ -59,10 +59,5 @@ TEST(BinErrors, passes_over_keys_outside_and_keys_that_are_no_number) {
   EXPECT_EQ(bins[1].errors.count, 0);
 }
 
-TEST(BinErrors, refuses_edges_that_do_not_ascend) {
-  EXPECT_THROW(static_cast<void>(bin_errors({}, {1})), std::invalid_argument);
-  EXPECT_THROW(static_cast<void>(bin_errors({}, {0, 2, 2})), std::invalid_argument);
-}
-
 }  // namespace
 }  // namespace lidar_upsampling

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <numeric>
 #include <random>
 #include <stdexcept>
 #include <string>
@@ -27,31 +26,19 @@ std::size_t draw_below(std::size_t bound, std::mt19937_64& random) {
 
 }  // namespace
 
-std::vector<int> sample_indices(std::size_t num_points, std::size_t count, std::uint64_t seed) {
-  if (num_points == 0 && count > 0) {
-    throw std::invalid_argument("sample_indices: " + std::to_string(count) +
+std::vector<Eigen::Vector3f> sample_points(const std::vector<Eigen::Vector3f>& points,
+                                           std::size_t count, std::uint64_t seed) {
+  if (points.empty() && count > 0) {
+    throw std::invalid_argument("sample_points: " + std::to_string(count) +
                                 " points asked of an empty cloud");
   }
   std::mt19937_64 random(seed);
-  std::vector<int> indices(num_points);
-  std::iota(indices.begin(), indices.end(), 0);
-  for (std::size_t i = 0; i < std::min(count, num_points); ++i) {
-    std::swap(indices[i], indices[i + draw_below(num_points - i, random)]);
+  std::vector<Eigen::Vector3f> sample = points;
+  for (std::size_t i = 0; i < std::min(count, points.size()); ++i) {
+    std::swap(sample[i], sample[i + draw_below(points.size() - i, random)]);
   }
-  indices.resize(std::min(count, num_points));
-  while (indices.size() < count) {
-    indices.push_back(static_cast<int>(draw_below(num_points, random)));
-  }
-  return indices;
-}
-
-std::vector<Eigen::Vector3f> sample_points(const std::vector<Eigen::Vector3f>& points,
-                                           std::size_t count, std::uint64_t seed) {
-  std::vector<Eigen::Vector3f> sample;
-  sample.reserve(count);
-  for (const int i : sample_indices(points.size(), count, seed)) {
-    sample.push_back(points[i]);
-  }
+  sample.resize(std::min(count, points.size()));
+  while (sample.size() < count) sample.push_back(points[draw_below(points.size(), random)]);
   return sample;
 }
 

@@ -9,15 +9,11 @@
 
 namespace lidar_upsampling {
 
-/// @brief Which points to keep so that a cloud has exactly `count`, as the literature cuts clouds
-/// to size (np.random.choice): drawn without replacement; of too small a cloud every point once,
-/// then as many random repeats as are missing. The same on every machine.
-/// @return `count` indices below `num_points`, in random order; repeats last.
+/// @brief Exactly `count` points of a cloud, as the literature cuts clouds to size
+/// (np.random.choice): drawn without replacement; of too small a cloud every point once, then as
+/// many random repeats as are missing. The same on every machine.
+/// @return in random order; repeats last.
 /// @throw std::invalid_argument there are no points to draw from.
-[[nodiscard]] std::vector<int> sample_indices(std::size_t num_points, std::size_t count,
-                                              std::uint64_t seed);
-
-/// The points that sample_indices() picks.
 [[nodiscard]] std::vector<Eigen::Vector3f> sample_points(const std::vector<Eigen::Vector3f>& points,
                                                          std::size_t count, std::uint64_t seed);
 

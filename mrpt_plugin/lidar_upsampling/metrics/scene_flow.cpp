@@ -2,6 +2,8 @@
 // Copyright (c) 2026, the lidar_upsampling authors
 #include "lidar_upsampling/metrics/scene_flow.h"
 
+#include <array>
+
 namespace lidar_upsampling {
 
 namespace {
@@ -32,14 +34,10 @@ std::optional<double> ThreeWayEpe::mean() const {
 }
 
 ThreeWayEpe three_way_epe(const std::vector<PointFlow>& flows) {
-  Mean foreground_dynamic, foreground_static, background_static;
-  for (const PointFlow& flow : flows) {
-    Mean& mean = flow.kind == FlowClass::foreground_dynamic  ? foreground_dynamic
-                 : flow.kind == FlowClass::foreground_static ? foreground_static
-                                                             : background_static;
-    mean.add((flow.estimated - flow.truth).norm());
-  }
-  return {foreground_dynamic.value(), foreground_static.value(), background_static.value()};
+  std::array<Mean, 3> means;
+  for (const PointFlow& flow : flows)
+    means[static_cast<std::size_t>(flow.kind)].add((flow.estimated - flow.truth).norm());
+  return {means[0].value(), means[1].value(), means[2].value()};
 }
 
 }  // namespace lidar_upsampling

@@ -34,7 +34,7 @@ struct ErrorBin {
 [[nodiscard]] std::vector<double> point_count_edges();
 
 /// @brief A summary for each pair of neighbouring edges, empty bins too. Keys outside go nowhere.
-/// @param edges ascending, at least two; the last may be infinite. @throw std::invalid_argument
+/// @param edges ascending, at least two; the last may be infinite.
 [[nodiscard]] std::vector<ErrorBin> bin_errors(const std::vector<KeyedError>& errors,
                                                const std::vector<double>& edges);
 
