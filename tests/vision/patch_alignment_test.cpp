@@ -29,11 +29,10 @@ cv::Mat stripes() {
   return picture;
 }
 
-TEST(PatchAligner, knows_along_which_way_a_patch_may_slide) {
-  const PatchAligner aligner;
+TEST(PatchAlignment, knows_along_which_way_a_patch_may_slide) {
   const cv::Mat picture = stripes(), textured = noise(3);
-  const auto along = aligner.align(picture, picture, kPoint, kPoint);
-  const auto fixed = aligner.align(textured, textured, kPoint, kPoint);
+  const auto along = align_patch(picture, picture, kPoint, kPoint);
+  const auto fixed = align_patch(textured, textured, kPoint, kPoint);
   ASSERT_TRUE(fixed);
   EXPECT_LT(fixed->covariance.trace(), 0.01F);
   // Upright stripes tell nothing of up and down.
@@ -43,39 +42,36 @@ TEST(PatchAligner, knows_along_which_way_a_patch_may_slide) {
   }
 }
 
-TEST(PatchAligner, compares_what_is_its_own_alone) {
-  const PatchAligner aligner;
+TEST(PatchAlignment, compares_what_is_its_own_alone) {
   const cv::Mat before = noise(3);
   cv::Mat after = noise(4);  // to the right something else has come
   before(cv::Rect(0, 0, 52, 100)).copyTo(after(cv::Rect(0, 0, 52, 100)));
   SurfaceMap surfaces{cv::Mat(before.size(), CV_16S, cv::Scalar(7))};
   surfaces.label(cv::Rect(0, 0, 50, 100)).setTo(2);
-  const auto own = aligner.own_pixels(surfaces, 2, kPoint);
+  const auto own = own_pixels(surfaces, 2, kPoint);
   ASSERT_FALSE(own.empty());
-  const auto masked = aligner.align(before, after, kPoint, kPoint + cv::Point2f(0.4F, 0), own);
+  const auto masked = align_patch(before, after, kPoint, kPoint + cv::Point2f(0.4F, 0), own);
   ASSERT_TRUE(masked);
   EXPECT_LT(cv::norm(masked->point - kPoint), 0.05);
   EXPECT_LT(masked->residual, 2);
-  const auto all = aligner.align(before, after, kPoint, kPoint + cv::Point2f(0.4F, 0));
+  const auto all = align_patch(before, after, kPoint, kPoint + cv::Point2f(0.4F, 0));
   EXPECT_TRUE(!all || all->residual > 3 * masked->residual);
 }
 
-TEST(PatchAligner, loses_a_patch_that_shows_hardly_anything_of_its_own) {
-  const PatchAligner aligner;
+TEST(PatchAlignment, loses_a_patch_that_shows_hardly_anything_of_its_own) {
   const cv::Mat picture = noise(3);
   SurfaceMap surfaces{cv::Mat(picture.size(), CV_16S, cv::Scalar(7))};
   surfaces.label(cv::Rect(0, 0, 44, 100)).setTo(2);
-  const auto own = aligner.own_pixels(surfaces, 2, kPoint);
-  EXPECT_FALSE(aligner.align(picture, picture, kPoint, kPoint, own));
+  const auto own = own_pixels(surfaces, 2, kPoint);
+  EXPECT_FALSE(align_patch(picture, picture, kPoint, kPoint, own));
 }
 
-TEST(PatchAligner, takes_all_of_a_patch_where_no_surface_is_known) {
-  const PatchAligner aligner;
-  EXPECT_TRUE(aligner.own_pixels({}, 2, kPoint).empty());
+TEST(PatchAlignment, takes_all_of_a_patch_where_no_surface_is_known) {
+  EXPECT_TRUE(own_pixels({}, 2, kPoint).empty());
   const SurfaceMap unknown{cv::Mat(100, 100, CV_16S, cv::Scalar(SurfaceMap::kUnknown))};
-  EXPECT_TRUE(aligner.own_pixels(unknown, 2, kPoint).empty());
+  EXPECT_TRUE(own_pixels(unknown, 2, kPoint).empty());
   const SurfaceMap another{cv::Mat(100, 100, CV_16S, cv::Scalar(7))};
-  EXPECT_TRUE(aligner.own_pixels(another, SurfaceMap::kUnknown, kPoint).empty());
+  EXPECT_TRUE(own_pixels(another, SurfaceMap::kUnknown, kPoint).empty());
 }
 
 TEST(WeighByTexture, counts_an_error_along_which_a_patch_slides_for_little) {

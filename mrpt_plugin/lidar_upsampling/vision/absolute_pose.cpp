@@ -5,15 +5,16 @@
 #include <Eigen/Cholesky>
 #include <array>
 #include <limits>
+#include <opencv2/calib3d.hpp>
 #include <vector>
 
+#include "lidar_upsampling/checks.h"
 #include "lidar_upsampling/robust/ransac.h"
 #include "lidar_upsampling/se3.h"
 #include "lidar_upsampling/types.h"
 #include "lidar_upsampling/units.h"
 #include "lidar_upsampling/vision/distortion.h"
 #include "lidar_upsampling/vision/observation.h"
-#include "lidar_upsampling/vision/p3p.h"
 #include "lidar_upsampling/vision/projection.h"
 #include "lidar_upsampling/vision/refine_pose.h"
 
@@ -34,25 +35,30 @@ class MlesacPose {
       : observations_(observations),
         sigma_px_(options.sigma_px),
         outlier_density_(1 / (options.outlier_range_px * options.outlier_range_px)),
-        max_sq_error_(std::pow(options.max_inlier_sigmas * options.sigma_px, 2)) {
-    bearings_.reserve(observations.size());
-    for (const auto& observation : observations) {
-      bearings_.push_back(observation.normalised.homogeneous().normalized());
-    }
-  }
+        max_sq_error_(std::pow(options.max_inlier_sigmas * options.sigma_px, 2)) {}
 
   [[nodiscard]] int num_data() const { return static_cast<int>(observations_.size()); }
 
+  /// Points on a line have no finite pose, which cannot win.
   void generate_models(const std::array<int, sample_size>& sample,
                        std::vector<Pose>* models) const {
-    std::array<Eigen::Vector3d, 3> bearings;
-    std::array<Eigen::Vector3d, 3> points;
+    std::array<cv::Point3d, sample_size> points;
+    std::array<cv::Point2d, sample_size> pixels;
     for (std::size_t i = 0; i < sample_size; ++i) {
-      const auto drawn = static_cast<std::size_t>(sample[i]);
-      bearings[i] = bearings_[drawn];
-      points[i] = observations_[drawn].point_in_source;
+      const Observation& drawn = observations_[static_cast<std::size_t>(sample[i])];
+      const Eigen::Vector3d& point = drawn.point_in_source;
+      points[i] = {point.x(), point.y(), point.z()};
+      pixels[i] = {drawn.normalised.x(), drawn.normalised.y()};
     }
-    solve_p3p(bearings, points, models);
+    std::vector<cv::Vec3d> turns, translations;
+    cv::solveP3P(points, pixels, cv::Matx33d::eye(), cv::noArray(), turns, translations,
+                 cv::SOLVEPNP_AP3P);
+    for (std::size_t i = 0; i < turns.size(); ++i) {
+      Pose pose = Pose::Identity();
+      pose.linear() = rotation_exp(Eigen::Vector3d(turns[i].val));
+      pose.translation() = Eigen::Vector3d(translations[i].val);
+      models->push_back(pose);
+    }
   }
 
   /// @return infinite cost for what cannot beat the best pose scored before.
@@ -101,7 +107,6 @@ class MlesacPose {
 
  private:
   const std::vector<Observation>& observations_;
-  std::vector<Eigen::Vector3d> bearings_;
   double sigma_px_;
   double outlier_density_;
   double max_sq_error_;
@@ -111,25 +116,16 @@ class MlesacPose {
 }  // namespace
 
 void check(const AbsolutePoseOptions& options) {
-  const auto positive = [](const char* name, double value) {
-    if (value > 0) return;
-    throw std::invalid_argument(std::string("absolute pose: ") + name + " must be positive, not " +
-                                std::to_string(value));
-  };
-  positive("sigma_px", options.sigma_px);
-  positive("outlier_range_px", options.outlier_range_px);
-  positive("max_inlier_sigmas", options.max_inlier_sigmas);
-  positive("loss_scale_px", options.loss_scale_px);
-  positive("first_gate_px", options.first_gate_px);
-  positive("max_refine_iterations", options.max_refine_iterations);
-  if (options.min_inliers < 4) {
-    throw std::invalid_argument("absolute pose: min_inliers must be at least 4, not " +
-                                std::to_string(options.min_inliers));
-  }
-  if (!(options.min_inlier_ratio >= 0 && options.min_inlier_ratio <= 1)) {
-    throw std::invalid_argument("absolute pose: min_inlier_ratio must be within [0, 1], not " +
-                                std::to_string(options.min_inlier_ratio));
-  }
+  const auto& o = options;
+  require(o.sigma_px > 0, "absolute pose: sigma_px must be positive", o.sigma_px);
+  require(o.outlier_range_px > 0, "absolute pose: outlier_range_px must be positive",
+          o.outlier_range_px);
+  require(o.max_inlier_sigmas > 0, "absolute pose: max_inlier_sigmas must be positive",
+          o.max_inlier_sigmas);
+  require(o.loss_scale_px > 0, "absolute pose: loss_scale_px must be positive", o.loss_scale_px);
+  require(o.min_inliers >= 4, "absolute pose: min_inliers must be at least 4", o.min_inliers);
+  require(o.min_inlier_ratio >= 0 && o.min_inlier_ratio <= 1,
+          "absolute pose: min_inlier_ratio must be within [0, 1]", o.min_inlier_ratio);
   check(options.ransac);
 }
 
@@ -144,8 +140,7 @@ std::optional<AbsolutePose> estimate_absolute_pose(
   if (!found.model) return std::nullopt;
   AbsolutePoseOptions refine_options = options;
   refine_options.first_gate_px = 2 * options.max_inlier_sigmas * options.sigma_px;
-  const int num_total = static_cast<int>(correspondences.size());
-  return refine_observed_pose({observations, num_total}, *found.model, refine_options);
+  return refine_absolute_pose(correspondences, model, *found.model, refine_options);
 }
 
 std::vector<double> reprojection_errors(const std::vector<Correspondence>& correspondences,
@@ -160,7 +155,7 @@ std::vector<double> reprojection_errors(const std::vector<Correspondence>& corre
     if (!(point.z() > kNearestDepth)) continue;
     const Eigen::Vector2d normalised = point.head<2>() / point.z();
     if (!(normalised.norm() < max_radius)) continue;
-    const Eigen::Vector2d pixel = focal.cwiseProduct(distort(model, normalised)) + centre;
+    const Eigen::Vector2d pixel = focal.cwiseProduct(distort(model, normalised).point) + centre;
     errors[i] = (pixel - correspondences[i].pixel).norm();
   }
   return errors;

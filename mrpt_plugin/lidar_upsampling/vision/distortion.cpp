@@ -99,7 +99,7 @@ std::optional<Eigen::Vector2d> undistort_kannala_brandt(const CameraModel& model
 
 }  // namespace
 
-Distorted distort_with_jacobian(const CameraModel& model, const Eigen::Vector2d& normalised) {
+Distorted distort(const CameraModel& model, const Eigen::Vector2d& normalised) {
   switch (model.distortion_model) {
     case DistortionModel::plumb_bob:
       return distort_plumb_bob(model, normalised);
@@ -109,11 +109,6 @@ Distorted distort_with_jacobian(const CameraModel& model, const Eigen::Vector2d&
       break;
   }
   return {normalised, Eigen::Matrix2d::Identity()};
-}
-
-Eigen::Vector2d distort(const CameraModel& model, const Eigen::Vector2d& normalised) {
-  if (model.distortion_model == DistortionModel::none) return normalised;
-  return distort_with_jacobian(model, normalised).point;
 }
 
 double valid_radius(const CameraModel& model) {
@@ -148,7 +143,7 @@ std::optional<Eigen::Vector2d> undistort_normalised(const CameraModel& model,
   if (normalised.norm() > 0.9 * max_radius) normalised *= 0.9 * max_radius / normalised.norm();
   double error = std::numeric_limits<double>::infinity();
   for (int i = 0; i < 50; ++i) {
-    const Distorted at = distort_with_jacobian(model, normalised);
+    const Distorted at = distort(model, normalised);
     const Eigen::Vector2d difference = distorted - at.point;
     error = difference.norm();
     if (error < 1e-13) break;

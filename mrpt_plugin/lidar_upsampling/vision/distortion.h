@@ -18,9 +18,7 @@ struct Distorted {
 
 /// Plumb bob: Brown's model with OpenCV's rational denominator; Kannala-Brandt (PAMI 2006): their
 /// radially symmetric polynomial of the angle.
-[[nodiscard]] Eigen::Vector2d distort(const CameraModel& model, const Eigen::Vector2d& normalised);
-[[nodiscard]] Distorted distort_with_jacobian(const CameraModel& model,
-                                              const Eigen::Vector2d& normalised);
+[[nodiscard]] Distorted distort(const CameraModel& model, const Eigen::Vector2d& normalised);
 
 /// @brief The largest normalised radius up to which the model is one to one. Beyond it the
 /// polynomials fold back, and points far outside the view would land in the picture.

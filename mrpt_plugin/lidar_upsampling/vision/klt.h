@@ -12,16 +12,13 @@
 namespace lidar_upsampling {
 
 struct KltOptions {
-  int window_px = 15;         ///< side of the square patch, odd
-  int pyramid_levels = 3;     ///< halvings above the full picture
-  double smoothing_px = 0.7;  ///< sigma of a blur beforehand: interpolation errs on sharp edges
+  int window_px = 15;      ///< side of the square patch, odd
+  int pyramid_levels = 3;  ///< halvings above the full picture
   int max_iterations = 15;
   double epsilon_px = 0.02;              ///< a step this short ends the iteration
   double max_forward_backward_px = 0.5;  ///< distance from the point after tracking there and back
   double min_eigenvalue = 5e-4;  ///< of the gradient matrix, in cv::calcOpticalFlowPyrLK's units
   double max_residual = 15;      ///< mean absolute difference of the patches, gray levels
-  bool align = true;             ///< PatchAligner has the last word
-  AlignmentOptions alignment;
 };
 
 /// @throw std::invalid_argument
@@ -31,32 +28,24 @@ void check(const KltOptions& options);
 /// it.
 class ImagePyramid {
  public:
-  ImagePyramid() = default;
-
   /// @param gray CV_8UC1; it is copied.
   /// @throw std::invalid_argument an empty picture, one of another type, options out of range.
   explicit ImagePyramid(const cv::Mat& gray, const KltOptions& options = {});
 
-  [[nodiscard]] bool empty() const { return levels_.empty(); }
-  [[nodiscard]] cv::Size size() const { return size_; }
-  [[nodiscard]] int window_px() const { return window_px_; }
-  [[nodiscard]] int pyramid_levels() const { return pyramid_levels_; }
+  /// Picture, gradients, picture, ... as OpenCV wants them.
   [[nodiscard]] const std::vector<cv::Mat>& levels() const { return levels_; }
+  [[nodiscard]] cv::Size size() const { return levels_.front().size(); }
 
  private:
-  std::vector<cv::Mat> levels_;  ///< picture, gradients, picture, ... as OpenCV wants them
-  cv::Size size_;
-  int window_px_ = 0;
-  int pyramid_levels_ = 0;
+  std::vector<cv::Mat> levels_;
 };
 
 /// One entry per point; where `tracked` is 0 the others mean nothing.
 struct KltResult {
   std::vector<cv::Point2f> points;
   std::vector<std::uint8_t> tracked;
-  std::vector<float> forward_backward_px;
   std::vector<float> residual;  ///< mean absolute difference of the patches, gray levels
-  std::vector<Eigen::Matrix2f> covariance;  ///< px^2, as Alignment's; zero without it
+  std::vector<Eigen::Matrix2f> covariance;  ///< px^2, as Alignment's
 };
 
 /// Of which surface of the first picture each point is.
@@ -66,14 +55,14 @@ struct PointLabels {
 };
 
 /// @brief Follows points from one picture to another by pyramidal Lucas-Kanade (Bouguet 2001),
-/// there and back (Kalal et al., ICPR 2010). A point whose patch leaves either picture is not
-/// tracked.
+/// there and back (Kalal et al., ICPR 2010), then aligned by align_patch(). A point whose patch
+/// leaves either picture is not tracked.
 /// @param points pixels on the first picture.
 /// @param guesses where they may be on the second; as many as points, or none.
 /// @param labels where patches show more than their own surface, only that is compared, from where
 /// Lucas-Kanade ends or from the guess, whichever fits better; null: patches show one surface.
-/// @throw std::invalid_argument empty pyramids, of different sizes or made for another window;
-/// guesses of another number.
+/// @throw std::invalid_argument pictures of different sizes; guesses of another number.
+/// @throw cv::Exception a pyramid made for a smaller window.
 [[nodiscard]] KltResult track_points(const ImagePyramid& from, const ImagePyramid& to,
                                      const std::vector<cv::Point2f>& points,
                                      const std::vector<cv::Point2f>& guesses = {},

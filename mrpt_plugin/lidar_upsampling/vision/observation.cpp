@@ -30,7 +30,7 @@ std::vector<Observation> observe(const std::vector<Correspondence>& corresponden
     const auto normalised = undistort_normalised(model, distorted, max_radius);
     if (!normalised) continue;
     observations.push_back({point, *normalised,
-                            focal.asDiagonal() * distort_with_jacobian(model, *normalised).jacobian,
+                            focal.asDiagonal() * distort(model, *normalised).jacobian,
                             static_cast<int>(i)});
   }
   return observations;

@@ -11,17 +11,6 @@
 
 namespace lidar_upsampling {
 
-struct AlignmentOptions {
-  int window_px = 17;  ///< side of the square patch, odd, at most 31
-  int max_iterations = 12;
-  double epsilon_px = 0.01;      ///< a step this short ends the iteration
-  double max_correction_px = 2;  ///< from where the search starts
-  double affine_sigma = 0.08;    ///< expected change of a patch's shape, per entry of its matrix
-  double gain_sigma = 0.2;       ///< expected change of contrast
-  double gray_sigma = 4;         ///< expected noise, gray levels
-  double min_own_share = 0.2;    ///< of a patch, by weight: with less of its own surface it is lost
-};
-
 /// @brief Which surface the pixels of a picture show, so that a patch near a silhouette is compared
 /// where it shows its own: what lies before or behind moves otherwise.
 struct SurfaceMap {
@@ -32,35 +21,28 @@ struct SurfaceMap {
 struct Alignment {
   cv::Point2f point;   ///< on the second picture
   float residual = 0;  ///< mean absolute difference after the change of gain and bias, gray levels
-  /// Of the point, px^2, by the texture and `gray_sigma`, whatever the change of shape.
+  /// Of the point, px^2, by the texture and the expected noise, whatever the change of shape.
   Eigen::Matrix2f covariance = Eigen::Matrix2f::Zero();
 };
 
-/// @brief Brings patches of one picture to lie on another by an affine warp with a change of gain
-/// and bias (Lucas-Kanade as in Baker & Matthews, IJCV 2004, the extra freedom held by Gaussian
-/// priors): a patch that grows or turns, as on a vehicle coming nearer, pulls a mere shift aside.
-class PatchAligner {
- public:
-  /// @throw std::invalid_argument options out of range.
-  explicit PatchAligner(const AlignmentOptions& options = {});
+/// @brief Brings a patch of 17 pixels' side of one picture to lie on another by an affine warp with
+/// a change of gain and bias (Lucas-Kanade as in Baker & Matthews, IJCV 2004, the extra freedom
+/// held by Gaussian priors): a patch that grows or turns, as on a vehicle coming nearer, pulls a
+/// mere shift aside.
+/// @param from, to CV_8UC1 pictures.
+/// @param guess where the point may be on `to`, within a pixel or two.
+/// @param own of each pixel of the patch on `from`, row by row, 1 or 0: what is not its own is not
+/// compared; empty: all of it is.
+/// @return none if the patch leaves a picture, shows hardly anything of its own, or the search does
+/// not settle.
+[[nodiscard]] std::optional<Alignment> align_patch(const cv::Mat& from, const cv::Mat& to,
+                                                   const cv::Point2f& point,
+                                                   const cv::Point2f& guess,
+                                                   const std::vector<float>& own = {});
 
-  /// @param from, to CV_8UC1 pictures.
-  /// @param guess where the point may be on `to`, within a pixel or two.
-  /// @param own of each pixel of the patch on `from`, row by row, 1 or 0: what is not its own is
-  /// not compared; empty: all of it is.
-  /// @return none if the patch leaves a picture or the search does not settle.
-  [[nodiscard]] std::optional<Alignment> align(const cv::Mat& from, const cv::Mat& to,
-                                               const cv::Point2f& point, const cv::Point2f& guess,
-                                               const std::vector<float>& own = {}) const;
-
-  /// @brief What of a patch shows its own surface; all of it, if `label` is kUnknown.
-  /// @return empty if all does.
-  [[nodiscard]] std::vector<float> own_pixels(const SurfaceMap& surfaces, std::int16_t label,
-                                              const cv::Point2f& point) const;
-
- private:
-  AlignmentOptions options_;
-  std::vector<float> weight_;  ///< of each pixel, falling from the middle
-};
+/// @brief What of such a patch shows its own surface; all of it, if `label` is kUnknown.
+/// @return empty if all does.
+[[nodiscard]] std::vector<float> own_pixels(const SurfaceMap& surfaces, std::int16_t label,
+                                            const cv::Point2f& point);
 
 }  // namespace lidar_upsampling

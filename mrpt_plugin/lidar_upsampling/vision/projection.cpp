@@ -20,7 +20,7 @@ std::optional<Eigen::Vector2d> project_within(const CameraModel& model, double m
   if (!(point.z() > kNearestDepth)) return std::nullopt;
   const Eigen::Vector2d normalised = point.head<2>() / point.z();
   if (!(normalised.squaredNorm() < max_radius * max_radius)) return std::nullopt;
-  const Eigen::Vector2d distorted = distort(model, normalised);
+  const Eigen::Vector2d distorted = distort(model, normalised).point;
   const double u = model.fx * distorted.x() + model.cx;
   const double v = model.fy * distorted.y() + model.cy;
   if (!(u >= margin_px && u <= model.width - 1 - margin_px)) return std::nullopt;

@@ -10,6 +10,7 @@
 #include <cmath>
 
 #include "lidar_upsampling/se3.h"
+#include "lidar_upsampling/vision/observation.h"
 
 namespace lidar_upsampling {
 namespace {
@@ -162,61 +163,62 @@ Matrix6d covariance(const std::vector<const Observation*>& inliers, const Pose& 
          solver.eigenvectors().transpose();
 }
 
-}  // namespace
-
-std::optional<AbsolutePose> refine_observed_pose(const ObservedCorrespondences& observed,
-                                                 const Pose& T_initial,
-                                                 const AbsolutePoseOptions& options,
-                                                 const std::optional<PosePrior>& prior) {
+/// Fits the pose to what lies near it, chosen anew until it no longer changes.
+/// @return the inliers, fewer than four where there are not enough to go on.
+std::vector<const Observation*> fit_to_inliers(const std::vector<Observation>& observations,
+                                               const AbsolutePoseOptions& options,
+                                               const std::optional<PosePrior>& prior,
+                                               AbsolutePose& pose) {
   using Solver = ceres::TinySolver<ReprojectionCost>;
   const double inlier_gate = options.max_inlier_sigmas * options.sigma_px;
-  AbsolutePose result;
-  result.T_camera_source = T_initial;
-  auto selected = select(observed.observations, T_initial, options.first_gate_px);
-  for (int round = 0; round < kMaxRounds && !result.converged; ++round) {
-    if (!prior && selected.size() < 4) return std::nullopt;
+  auto selected = select(observations, pose.T_camera_source, options.first_gate_px);
+  for (int round = 0; round < kMaxRounds && !pose.converged; ++round) {
+    if (!prior && selected.size() < 4) break;
     Solver solver;
     solver.options.max_num_iterations = options.max_refine_iterations;
     solver.options.function_tolerance = 1e-12;
     solver.options.parameter_tolerance = 1e-10;
     Solver::Parameters increment = Solver::Parameters::Zero();
-    const ReprojectionCost cost(selected, result.T_camera_source, options, prior);
+    const ReprojectionCost cost(selected, pose.T_camera_source, options, prior);
     solver.Solve(cost, &increment);
-    result.T_camera_source = incremented(increment, result.T_camera_source);
-    auto inliers = select(observed.observations, result.T_camera_source, inlier_gate);
-    result.converged = inliers == selected && solver.summary.status != Solver::HIT_MAX_ITERATIONS;
+    pose.T_camera_source = incremented(increment, pose.T_camera_source);
+    auto inliers = select(observations, pose.T_camera_source, inlier_gate);
+    pose.converged = inliers == selected && solver.summary.status != Solver::HIT_MAX_ITERATIONS;
     selected = std::move(inliers);
   }
-  result.inliers.assign(static_cast<std::size_t>(observed.num_correspondences), 0);
-  double sum_sq = 0;
-  for (const Observation* observation : selected) {
-    result.inliers[static_cast<std::size_t>(observation->index)] = 1;
-    sum_sq += sq_reprojection_error(*observation, result.T_camera_source);
-  }
-  result.num_inliers = static_cast<int>(selected.size());
-  if (!prior && (result.num_inliers < options.min_inliers ||
-                 result.num_inliers < options.min_inlier_ratio * observed.num_correspondences)) {
-    return std::nullopt;
-  }
-  result.rmse_px = selected.empty() ? 0 : std::sqrt(sum_sq / result.num_inliers);
-  result.covariance = covariance(selected, result.T_camera_source, options, prior);
-  return result;
+  return selected;
 }
+
+}  // namespace
 
 std::optional<AbsolutePose> refine_absolute_pose(const std::vector<Correspondence>& correspondences,
                                                  const CameraModel& model, const Pose& T_initial,
                                                  const AbsolutePoseOptions& options,
                                                  const std::optional<PosePrior>& prior) {
   check(options);
-  if (!T_initial.matrix().allFinite()) {
-    throw std::invalid_argument("absolute pose: the initial pose is not finite");
-  }
-  if (prior && !(prior->T_mean.matrix().allFinite() && prior->sqrt_information.allFinite())) {
-    throw std::invalid_argument("absolute pose: the prior is not finite");
+  if (!T_initial.matrix().allFinite() ||
+      (prior && !(prior->T_mean.matrix().allFinite() && prior->sqrt_information.allFinite()))) {
+    throw std::invalid_argument("absolute pose: the initial pose or its prior is not finite");
   }
   const std::vector<Observation> observations = observe(correspondences, model);
-  return refine_observed_pose({observations, static_cast<int>(correspondences.size())}, T_initial,
-                              options, prior);
+  AbsolutePose result;
+  result.T_camera_source = T_initial;
+  const auto inliers = fit_to_inliers(observations, options, prior, result);
+  result.num_inliers = static_cast<int>(inliers.size());
+  if (!prior && (result.num_inliers < options.min_inliers ||
+                 result.num_inliers <
+                     options.min_inlier_ratio * static_cast<double>(correspondences.size()))) {
+    return std::nullopt;
+  }
+  result.inliers.assign(correspondences.size(), 0);
+  double sum_sq = 0;
+  for (const Observation* observation : inliers) {
+    result.inliers[static_cast<std::size_t>(observation->index)] = 1;
+    sum_sq += sq_reprojection_error(*observation, result.T_camera_source);
+  }
+  result.rmse_px = std::sqrt(sum_sq / std::max(1, result.num_inliers));
+  result.covariance = covariance(inliers, result.T_camera_source, options, prior);
+  return result;
 }
 
 }  // namespace lidar_upsampling

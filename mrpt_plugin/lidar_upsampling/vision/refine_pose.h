@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "lidar_upsampling/vision/absolute_pose.h"
-#include "lidar_upsampling/vision/observation.h"
 
 namespace lidar_upsampling {
 
@@ -27,16 +26,5 @@ struct PosePrior {
     const std::vector<Correspondence>& correspondences, const CameraModel& model,
     const Pose& T_initial, const AbsolutePoseOptions& options = {},
     const std::optional<PosePrior>& prior = std::nullopt);
-
-/// What observe() made of `num_correspondences`.
-struct ObservedCorrespondences {
-  const std::vector<Observation>& observations;
-  int num_correspondences;
-};
-
-/// @brief refine_absolute_pose() for those who have observed already; checks nothing.
-[[nodiscard]] std::optional<AbsolutePose> refine_observed_pose(
-    const ObservedCorrespondences& observed, const Pose& T_initial,
-    const AbsolutePoseOptions& options, const std::optional<PosePrior>& prior = std::nullopt);
 
 }  // namespace lidar_upsampling

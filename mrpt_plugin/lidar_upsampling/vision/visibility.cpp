@@ -8,19 +8,13 @@
 #include <Eigen/LU>
 #include <cmath>
 #include <limits>
-#include <stdexcept>
-#include <string>
+
+#include "lidar_upsampling/checks.h"
 
 namespace lidar_upsampling {
 namespace {
 
 constexpr std::size_t kGrainSize = 1024;
-
-void check_positive(const char* name, double value) {
-  if (value > 0) return;
-  throw std::invalid_argument(std::string("visibility: ") + name + " must be positive, not " +
-                              std::to_string(value));
-}
 
 /// The points of a picture in cells of the size of half a neighbourhood.
 class PixelGrid {
@@ -28,8 +22,8 @@ class PixelGrid {
   PixelGrid(const std::vector<ProjectedPoint>& points, const Neighbourhood& neighbourhood)
       : half_width_(static_cast<float>(neighbourhood.half_width_px)),
         half_height_(static_cast<float>(neighbourhood.half_height_px)) {
-    check_positive("half_width_px", neighbourhood.half_width_px);
-    check_positive("half_height_px", neighbourhood.half_height_px);
+    require(half_width_ > 0, "visibility: half_width_px must be positive", half_width_);
+    require(half_height_ > 0, "visibility: half_height_px must be positive", half_height_);
     float right = std::numeric_limits<float>::lowest();
     float bottom = right;
     for (const auto& point : points) {
@@ -113,27 +107,6 @@ std::vector<std::uint8_t> mark(const std::vector<ProjectedPoint>& points, const 
   return marked;
 }
 
-/// Least-squares plane of the inverse depths about a point, relative to the point's own.
-class InverseDepthPlane {
- public:
-  void add(float du, float dv, float inverse_depth) {
-    const Eigen::Vector3f row(1, du, dv);
-    normal_ += row * row.transpose();
-    right_ += row * inverse_depth;
-  }
-
-  /// (value, slope by du, slope by dv); one row of points leaves slopes free: they become zero.
-  [[nodiscard]] Eigen::Vector3f solve() const {
-    Eigen::Matrix3f damped = normal_;
-    damped.diagonal().tail<2>().array() += 1e-3F;
-    return damped.inverse() * right_;
-  }
-
- private:
-  Eigen::Matrix3f normal_ = Eigen::Matrix3f::Zero();
-  Eigen::Vector3f right_ = Eigen::Vector3f::Zero();
-};
-
 }  // namespace
 
 std::vector<std::uint8_t> mark_occluded(const std::vector<ProjectedPoint>& points,
@@ -160,16 +133,21 @@ std::vector<std::uint8_t> mark_depth_edges(const std::vector<ProjectedPoint>& po
     const float limit = static_cast<float>(0.15 + 0.01 * depth);
     float nearest = depth;
     float farthest = depth;
-    InverseDepthPlane sums;
-    sums.add(0, 0, 1);
+    // Least-squares plane of the inverse depths, relative to the point's own.
+    Eigen::Matrix3f normal = Eigen::Matrix3f::Zero();
+    Eigen::Vector3f right(1, 0, 0);
+    normal(0, 0) = 1;
     grid.for_each_neighbour(point, [&](const ProjectedPoint& other, float du, float dv) {
       nearest = std::min(nearest, other.depth);
       farthest = std::max(farthest, other.depth);
-      sums.add(du, dv, depth / other.depth);
+      const Eigen::Vector3f row(1, du, dv);
+      normal += row * row.transpose();
+      right += row * (depth / other.depth);
     });
     // Most neighbourhoods are flat and facing the camera: no need for their plane.
     if (farthest - nearest < limit) return false;
-    const Eigen::Vector3f plane = sums.solve();
+    normal.diagonal().tail<2>().array() += 1e-3F;  // one row of points leaves slopes free: zero
+    const Eigen::Vector3f plane = normal.inverse() * right;  // value, slope by du, slope by dv
     float deviation = std::abs(1 - plane[0]);
     grid.for_each_neighbour(point, [&](const ProjectedPoint& other, float du, float dv) {
       const float predicted = plane[0] + plane[1] * du + plane[2] * dv;
