@@ -176,5 +176,12 @@ TEST(Resample, works_without_columns) {
   EXPECT_TRUE(result.scan.column.empty());
 }
 
+TEST(Resample, a_virtual_scan_of_another_key_scan_is_rejected) {
+  const LabelledScan key = scan_of({kFarWall}, {});
+  VirtualScan moved = moved_scan(key, driven(1, 0, 0));
+  moved.source_index.back() = static_cast<int>(key.scan.size());
+  EXPECT_THROW((void)resample_on_beams(key.scan, moved), std::invalid_argument);
+}
+
 }  // namespace
 }  // namespace lidar_upsampling

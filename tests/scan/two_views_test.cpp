@@ -123,5 +123,15 @@ TEST(TwoViews, a_scan_without_rings_adds_nothing) {
   EXPECT_EQ(scan.scan.points, scene.of_key().scan.points);
 }
 
+TEST(TwoViews, a_virtual_scan_of_another_one_is_rejected) {
+  const TwoScans scene;
+  const BeamResampler other(scene.next.scan);
+  VirtualScan moved = scene.moved_next();
+  moved.source_index.back() = static_cast<int>(scene.next.scan.size());
+  const BeamResampler::OtherView view{other, moved};
+  EXPECT_THROW((void)BeamResampler(scene.key.scan).resample(scene.moved_key(), &view),
+               std::invalid_argument);
+}
+
 }  // namespace
 }  // namespace lidar_upsampling

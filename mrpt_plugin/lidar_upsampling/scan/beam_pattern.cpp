@@ -33,12 +33,21 @@ std::vector<Ring> split_by_ring(const LidarScan& scan) {
   return rings;
 }
 
+// Most sensors turn steadily: their rows are in order but for the way round and the beginning.
+void turn_into_order(std::vector<std::pair<float, int>>& row) {
+  std::size_t falls = 0;
+  for (std::size_t k = 1; k < row.size(); ++k) falls += row[k].first < row[k - 1].first ? 1 : 0;
+  if (2 * falls > row.size()) std::reverse(row.begin(), row.end());
+  std::rotate(row.begin(), std::min_element(row.begin(), row.end()), row.end());
+}
+
 void sort_by_azimuth(const LidarScan& scan, Ring& ring) {
   std::vector<std::pair<float, int>> sorted;
   sorted.reserve(ring.points.size());
   for (const int i : ring.points)
     sorted.emplace_back(azimuth_of(scan.points[i].x(), scan.points[i].y()), i);
-  std::sort(sorted.begin(), sorted.end());
+  turn_into_order(sorted);
+  if (!std::is_sorted(sorted.begin(), sorted.end())) std::sort(sorted.begin(), sorted.end());
   ring.azimuth.resize(sorted.size());
   for (std::size_t k = 0; k < sorted.size(); ++k) {
     ring.points[k] = sorted[k].second;
@@ -101,19 +110,30 @@ bool are_picture_rows(const LidarScan& scan, const std::vector<Ring>& rings) {
   return median(std::move(as_plane)) < 0.5F * median(std::move(as_cone));
 }
 
-// The point of a row nearest in azimuth, at most `reach` away; -1: none.
-int nearest_in_row(const BeamPattern& pattern, int row, float azimuth, float reach) {
-  if (row < 0 || row >= pattern.num_rows()) return -1;
-  const auto* const azimuths = pattern.azimuth.data();
-  const int begin = pattern.rows[row].begin, end = pattern.rows[row].end;
-  const auto next =
-      static_cast<int>(std::lower_bound(azimuths + begin, azimuths + end, azimuth) - azimuths);
-  const int after = next < end ? next : begin, before = (next > begin ? next : end) - 1;
-  const float to_after = azimuths[after] - azimuth + (next < end ? 0 : kTurn);
-  const float to_before = azimuth - azimuths[before] + (next > begin ? 0 : kTurn);
-  if (std::min(to_after, to_before) > reach) return -1;
-  return to_before <= to_after ? before : after;
-}
+// Walks along a row beside a walk along another one, both in order of azimuth.
+class NearestInRow {
+ public:
+  NearestInRow(const BeamPattern& pattern, int row) : azimuth_(pattern.azimuth.data()) {
+    if (row < 0 || row >= pattern.num_rows()) return;
+    begin_ = next_ = pattern.rows[row].begin;
+    end_ = pattern.rows[row].end;
+  }
+
+  // The point nearest in azimuth, at most `reach` away; -1: none. Azimuths must not fall.
+  int operator()(float azimuth, float reach) {
+    if (begin_ == end_) return -1;
+    while (next_ < end_ && azimuth_[next_] < azimuth) ++next_;
+    const int after = next_ < end_ ? next_ : begin_, before = (next_ > begin_ ? next_ : end_) - 1;
+    const float to_after = azimuth_[after] - azimuth + (next_ < end_ ? 0 : kTurn);
+    const float to_before = azimuth - azimuth_[before] + (next_ > begin_ ? 0 : kTurn);
+    if (std::min(to_after, to_before) > reach) return -1;
+    return to_before <= to_after ? before : after;
+  }
+
+ private:
+  const float* azimuth_;
+  int begin_ = 0, end_ = 0, next_ = 0;
+};
 
 // The rings, upwards, as rows of the pattern.
 BeamPattern joined(std::vector<Ring> rings, std::size_t num_points) {
@@ -160,6 +180,7 @@ std::optional<BeamPattern> find_beam_pattern(const LidarScan& scan) {
 void find_neighbours(const BeamPattern& pattern, int row, std::vector<BeamNeighbours>& neighbours) {
   const float along = 2.5F * pattern.azimuth_pitch, across = 1.5F * pattern.azimuth_pitch;
   const int begin = pattern.rows[row].begin, end = pattern.rows[row].end;
+  NearestInRow below(pattern, row - 1), above(pattern, row + 1);
   const auto after = [&](int k) { return k + 1 < end ? k + 1 : begin; };
   const auto is_next = [&](int k, int next) {
     const float turn = pattern.azimuth[next] - pattern.azimuth[k] + (next > k ? 0 : kTurn);
@@ -169,8 +190,7 @@ void find_neighbours(const BeamPattern& pattern, int row, std::vector<BeamNeighb
   for (int k = begin; k < end; ++k) {
     const float azimuth = pattern.azimuth[k];
     const int left = is_next(k, after(k)) ? after(k) : -1;
-    neighbours[k] = {right, left, nearest_in_row(pattern, row - 1, azimuth, across),
-                     nearest_in_row(pattern, row + 1, azimuth, across)};
+    neighbours[k] = {right, left, below(azimuth, across), above(azimuth, across)};
     right = left < 0 ? -1 : k;
   }
 }

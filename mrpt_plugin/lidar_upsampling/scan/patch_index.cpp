@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <stdexcept>
+#include <string>
 
 namespace lidar_upsampling {
 namespace {
@@ -129,6 +131,9 @@ PatchMotions motions_of(const std::vector<int>& position, const VirtualScan& mov
   auto motion = of_track.find(kStatic);
   for (std::size_t k = 0; k < moved.source_index.size(); ++k) {
     if (motion->first != moved.track_id[k]) motion = of_track.find(moved.track_id[k]);
+    if (motion == of_track.end())
+      throw std::invalid_argument("resampling: points of track " +
+                                  std::to_string(moved.track_id[k]) + ", but no such object");
     motions.of_patch[position[moved.source_index[k]]] = motion->second;
   }
   return motions;

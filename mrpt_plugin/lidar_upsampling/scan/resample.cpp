@@ -7,6 +7,8 @@
 
 #include <algorithm>
 #include <numeric>
+#include <stdexcept>
+#include <string>
 #include <utility>
 
 #include "lidar_upsampling/scan/beams.h"
@@ -39,6 +41,18 @@ struct BeamResampler::Sensor {
 };
 
 namespace {
+
+void check(std::size_t num_points, const VirtualScan& moved) {
+  const std::size_t size = moved.scan.size();
+  const bool fits = moved.source_index.size() == size && moved.track_id.size() == size &&
+                    std::all_of(moved.source_index.begin(), moved.source_index.end(), [&](int i) {
+                      return i >= 0 && static_cast<std::size_t>(i) < num_points;
+                    });
+  if (!fits)
+    throw std::invalid_argument("resampling: the virtual scan of " + std::to_string(size) +
+                                " points was not made from the key scan of " +
+                                std::to_string(num_points));
+}
 
 LidarScan in_order(const LidarScan& key, const std::vector<int>& order) {
   LidarScan scan;
@@ -160,7 +174,7 @@ void BeamResampler::Sensor::take_hits(const PatchMotions& motions,
 }
 
 BeamResampler::BeamResampler(const LidarScan& key_scan, const ResampleOptions& options)
-    : options_(options) {
+    : num_points_(key_scan.size()), options_(options) {
   if (auto pattern = find_beam_pattern(key_scan))
     sensor_ = std::make_unique<const Sensor>(key_scan, std::move(*pattern), options);
 }
@@ -182,6 +196,7 @@ void BeamResampler::Sensor::join(const PatchMotions& motions, int at_rest, std::
 }
 
 VirtualScan BeamResampler::resample(VirtualScan moved, const OtherView* other) const {
+  check(num_points_, moved);
   moved.resampling = Resampling::no_beams;
   if (!sensor_) return moved;
   PatchMotions motions = motions_of(sensor_->position, moved);
@@ -196,6 +211,7 @@ VirtualScan BeamResampler::resample(VirtualScan moved, const OtherView* other) c
   const bool needs_intensity = !sensor_->scan.intensity.empty();
   if (second != nullptr && needs_intensity && second->scan.intensity.empty()) second = nullptr;
   if (second != nullptr) {
+    check(other->scan.num_points_, other->moved);
     const auto at_rest = static_cast<int>(motions.forth.size());
     motions.append(motions_of(second->position, other->moved));
     second->join(motions, at_rest, patches, rows);

@@ -39,11 +39,13 @@ class BeamResampler {
   /// @param other shows what the key scan does not, and again what it does: where both show a
   /// surface, each weighs as it is near the beam; what lies before hides what lies behind,
   /// whichever shows it. Null: none.
+  /// @throw std::invalid_argument a scan that was moved is not the resampler's.
   [[nodiscard]] VirtualScan resample(VirtualScan moved, const OtherView* other = nullptr) const;
 
  private:
   struct Sensor;  // the key scan's beams and patches; none if it has none
 
+  std::size_t num_points_;
   ResampleOptions options_;
   std::unique_ptr<const Sensor> sensor_;
 };
