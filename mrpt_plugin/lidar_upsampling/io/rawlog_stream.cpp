@@ -40,12 +40,21 @@ std::string explain(const std::exception& error) {
 }
 
 // MRPT stores colour pictures as JPEG unless told otherwise: what we write shall lose nothing.
+class LosslessImages {
+ public:
+  LosslessImages() { mrpt::img::CImage::DISABLE_JPEG_COMPRESSION(true); }
+  ~LosslessImages() { mrpt::img::CImage::DISABLE_JPEG_COMPRESSION(before_); }
+  LosslessImages(const LosslessImages&) = delete;
+  LosslessImages& operator=(const LosslessImages&) = delete;
+
+ private:
+  bool before_ = mrpt::img::CImage::DISABLE_JPEG_COMPRESSION();
+};
+
 std::vector<std::uint8_t> bytes_of(const mrpt::serialization::CSerializable& object) {
-  const bool before = mrpt::img::CImage::DISABLE_JPEG_COMPRESSION();
-  mrpt::img::CImage::DISABLE_JPEG_COMPRESSION(true);
+  const LosslessImages guard;
   std::vector<std::uint8_t> bytes;
   mrpt::serialization::ObjectToOctetVector(&object, bytes);
-  mrpt::img::CImage::DISABLE_JPEG_COMPRESSION(before);
   return bytes;
 }
 

@@ -4,7 +4,9 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <atomic>
 #include <cmath>
+#include <cstdint>
 
 namespace lidar_upsampling {
 
@@ -57,16 +59,34 @@ std::vector<Eigen::Vector3f> evenly_thinned(const std::vector<Eigen::Vector3f>& 
   return kept;
 }
 
+struct Surface::Known {
+  enum State : std::uint8_t { unknown, under_way, ready };
+
+  explicit Known(std::size_t size) : normals(size), states(size) {}
+
+  std::vector<Eigen::Vector3f> normals;
+  std::vector<std::atomic<std::uint8_t>> states;
+};
+
 Surface::Surface(std::vector<Eigen::Vector3f> points, const NormalOptions& options)
     : index_(std::move(points)),
       options_(options),
-      normals_(index_.points().size()),
-      is_known_(std::make_unique<std::once_flag[]>(normals_.size())) {}
+      known_(std::make_unique<Known>(index_.points().size())) {}
+Surface::~Surface() = default;
+Surface::Surface(Surface&&) noexcept = default;
+Surface& Surface::operator=(Surface&&) noexcept = default;
 
 Eigen::Vector3f Surface::normal(int point) const {
-  std::call_once(is_known_[point],
-                 [&] { normals_[point] = normal_at(index_, points()[point], options_); });
-  return normals_[point];
+  std::atomic<std::uint8_t>& state = known_->states[point];
+  if (state.load(std::memory_order_acquire) == Known::ready) return known_->normals[point];
+  Eigen::Vector3f normal = normal_at(index_, points()[point], options_);
+  // Whoever comes while another one writes goes on with its own.
+  std::uint8_t expected = Known::unknown;
+  if (state.compare_exchange_strong(expected, Known::under_way, std::memory_order_relaxed)) {
+    known_->normals[point] = normal;
+    state.store(Known::ready, std::memory_order_release);
+  }
+  return normal;
 }
 
 float Surface::spacing(int point) const {

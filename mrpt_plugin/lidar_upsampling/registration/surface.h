@@ -3,7 +3,6 @@
 #pragma once
 
 #include <memory>
-#include <mutex>
 #include <vector>
 
 #include "lidar_upsampling/registration/point_index.h"
@@ -28,6 +27,9 @@ struct NormalOptions {
 class Surface {
  public:
   explicit Surface(std::vector<Eigen::Vector3f> points, const NormalOptions& options = {});
+  ~Surface();
+  Surface(Surface&&) noexcept;
+  Surface& operator=(Surface&&) noexcept;
 
   [[nodiscard]] const std::vector<Eigen::Vector3f>& points() const { return index_.points(); }
   /// @param max_sq_distance as PointIndex has it.
@@ -43,10 +45,11 @@ class Surface {
   [[nodiscard]] float spacing(int point) const;
 
  private:
+  struct Known;  // normals so far; std::once_flag wakes others at a system call each
+
   PointIndex index_;
   NormalOptions options_;
-  mutable std::vector<Eigen::Vector3f> normals_;
-  std::unique_ptr<std::once_flag[]> is_known_;  ///< of each normal
+  std::unique_ptr<Known> known_;
 };
 
 }  // namespace lidar_upsampling
