@@ -31,31 +31,50 @@ PointIndex::Neighbor match_of(const ObjectFit& problem, const Eigen::Vector3f& p
   return problem.target.nearest(point, sq_bound);
 }
 
-/// Adds one point's match: across the surface with full weight, along it with little.
+/// Sums over matches: across the surface each counts fully, along it little.
+struct MatchSums {
+  Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();  ///< of the places about the pivot
+  Eigen::Vector3d places = Eigen::Vector3d::Zero(), errors = Eigen::Vector3d::Zero(),
+                  moments = Eigen::Vector3d::Zero();
+  double weights = 0;
+  Matrix6d H = Matrix6d::Zero();  ///< across the surfaces
+  Twist b = Twist::Zero();
+
+  /// J = [-[p]x, I] at a place p: what counts in any direction needs no more than the sums.
+  void add_to(Matrix6d& all_H, Twist& all_b) const {
+    all_H += H;
+    all_b += b;
+    all_H.topLeftCorner<3, 3>() += squares.trace() * Eigen::Matrix3d::Identity() - squares;
+    all_H.bottomLeftCorner<3, 3>() -= skew(places);
+    all_H.bottomRightCorner<3, 3>().diagonal().array() += weights;
+    all_b.head<3>() -= moments;
+    all_b.tail<3>() -= errors;
+  }
+};
+
 /// @param match in and out, of the step before and of this one; -1: none.
 void add_match(const ObjectFit& problem, const Eigen::Vector3d& point, const Eigen::Vector3d& pivot,
-               double scale, int& match, Matrix6d& H, Twist& b) {
-  const auto nearest = match_of(problem, point.cast<float>(), match);
-  match = nearest.index;
-  if (nearest.index < 0) {
-    return;
-  }
-  const Eigen::Vector3d error = point - problem.target.points()[nearest.index].cast<double>();
-  const Eigen::Vector3d normal = problem.target.normal(nearest.index).cast<double>();
+               double scale, int& match, MatchSums& sums) {
+  match = match_of(problem, point.cast<float>(), match).index;
+  if (match < 0) return;
+  const Eigen::Vector3d error = point - problem.target.points()[match].cast<double>();
+  const Eigen::Vector3d normal = problem.target.normal(match).cast<double>();
+  const Eigen::Vector3d place = point - pivot;
+  const double across = normal.dot(error);  // zero where there is no normal
   const double along = normal.isZero() ? 1 : problem.options.point_weight;
-  const Eigen::Matrix3d metric =
-      along * Eigen::Matrix3d::Identity() + (1 - along) * normal * normal.transpose();
-  const double root = scale * scale / (scale * scale + error.dot(metric * error));
-  // J = [-S, I] with S = [point - pivot]x; only the lower triangle of H = J' W J is read.
-  const Eigen::Matrix3d weighted = root * root * metric;
-  const Eigen::Matrix3d S = skew(point - pivot);
-  const Eigen::Matrix3d turned = weighted * S;
-  const Eigen::Vector3d pull = weighted * error;
-  H.topLeftCorner<3, 3>().noalias() += S.transpose() * turned;
-  H.bottomLeftCorner<3, 3>() -= turned;
-  H.bottomRightCorner<3, 3>() += weighted;
-  b.head<3>() -= (point - pivot).cross(pull);
-  b.tail<3>() -= pull;
+  const double sq_error = along * error.squaredNorm() + (1 - along) * across * across;
+  const double root = scale * scale / (scale * scale + sq_error);
+  const double weight = root * root * along;
+  sums.weights += weight;
+  sums.places += weight * place;
+  sums.squares.noalias() += weight * place * place.transpose();
+  sums.errors += weight * error;
+  sums.moments += weight * place.cross(error);
+  Twist row;
+  row << place.cross(normal), normal;
+  const Twist weighed = root * root * (1 - along) * row;
+  sums.H.noalias() += weighed * row.transpose();
+  sums.b -= across * weighed;
 }
 
 /// Vehicles stay level with the ground, or sparse rings would tilt them, and turn slowly, or what
@@ -164,14 +183,16 @@ Fitted converge(const ObjectFit& problem, const Pose& guess, double stop) {
   double scale = 4 * problem.options.kernel_m;
   std::vector<int> matches(problem.points.size(), -1);
   for (int i = 0; i < problem.options.max_iterations; ++i) {
-    Matrix6d H = 1e-9 * Matrix6d::Identity();
-    Twist b = Twist::Zero();
+    MatchSums sums;
     const Eigen::Vector3d pivot = T * problem.centroid;
     for (std::size_t j = 0; j < matches.size(); ++j) {
       const Eigen::Vector3d place = T * problem.points[j].cast<double>();
       if (sight_in(problem, place.cast<float>()) == Sight::hidden) continue;
-      add_match(problem, place, pivot, scale, matches[j], H, b);
+      add_match(problem, place, pivot, scale, matches[j], sums);
     }
+    Matrix6d H = 1e-9 * Matrix6d::Identity();
+    Twist b = Twist::Zero();
+    sums.add_to(H, b);
     add_level(problem, T, H, b);
     const Twist step = H.ldlt().solve(b);
     if (!step.allFinite()) {

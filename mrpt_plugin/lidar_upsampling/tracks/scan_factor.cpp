@@ -61,20 +61,32 @@ PlanarStep centroid_step(const ObjectTrack& track, const ScanObject& object,
   return step;
 }
 
-/// The share of its surface that lies across a direction, and not along it.
-double share_across(const std::vector<Eigen::Vector3f>& points, const Eigen::Vector2d& d) {
-  constexpr float kAcross = 0.5F;  // within 60 degrees
+/// Normals at some of the points, evenly taken: a share of a surface needs no more.
+std::vector<Eigen::Vector3f> some_normals(const std::vector<Eigen::Vector3f>& points) {
+  constexpr std::size_t kMost = 100;  // the share's deviation is 5 % at worst
   const Surface surface(points);
-  int across = 0;
-  for (std::size_t i = 0; i < points.size(); ++i)
-    across +=
-        std::abs(surface.normal(static_cast<int>(i)).head<2>().dot(d.cast<float>())) > kAcross;
-  return across / static_cast<double>(points.size());
+  const std::size_t count = std::min(points.size(), kMost);
+  std::vector<Eigen::Vector3f> normals;
+  for (std::size_t i = 0; i < count; ++i)
+    normals.push_back(surface.normal(static_cast<int>(i * points.size() / count)));
+  return normals;
+}
+
+/// The share of its surface that lies across a direction, and not along it.
+double share_across(const std::vector<Eigen::Vector3f>& normals, const Eigen::Vector2d& d) {
+  constexpr float kAcross = 0.5F;  // within 60 degrees
+  const auto lies_across = [&](const Eigen::Vector3f& normal) {
+    return std::abs(normal.head<2>().dot(d.cast<float>())) > kAcross;
+  };
+  return std::count_if(normals.begin(), normals.end(), lies_across) /
+         static_cast<double>(normals.size());
 }
 
 /// Whether what is seen of the object tells a step: by a face across it, or an end that both scans
 /// show. Else its ends are the edges of what hides the rest of it, and their steps are not its own.
-bool tells_step(const TwoSights& sights, const Eigen::Vector2d& step, const TrackedScan& scan) {
+/// @param normals of the object now.
+bool tells_step(const TwoSights& sights, const std::vector<Eigen::Vector3f>& normals,
+                const Eigen::Vector2d& step, const TrackedScan& scan) {
   constexpr double kFace = 0.1;  // of its surface: a face
   if (sights.scans.seen_before == nullptr || step.norm() < 1e-3) return true;
   const Eigen::Vector2d d = step.normalized();
@@ -84,7 +96,7 @@ bool tells_step(const TwoSights& sights, const Eigen::Vector2d& step, const Trac
   const Eigen::Vector2d d_now = sights.axes_now.transpose() * d;
   return (ends_in_sight(before, d_before) && ends_in_sight(now, d_now)) ||
          (ends_in_sight(before, -d_before) && ends_in_sight(now, -d_now)) ||
-         share_across(sights.scans.now, d_now) > kFace;  // last, as normals take longest
+         share_across(normals, d_now) > kFace;
 }
 
 /// Where the object ends on one side, m along a direction at rest; none if something hides its end.
@@ -161,21 +173,22 @@ class StepLikelihoods {
 
 /// What the scans tell of the step, the ego-motion's error included.
 PlanarStep measured_step(const ObjectTrack& track, const ScanObject& object,
-                         const TrackedScan& scan, const TrackState& expected,
-                         const TrackOptions& options) {
+                         const std::vector<Eigen::Vector3f>& normals, const TrackedScan& scan,
+                         const TrackState& expected, const TrackOptions& options) {
   const TwoSights sights = two_sights(track, object, scan, expected, options);
   const auto registered = registered_step(sights.scans, scan.T_rest_lidar.linear());
   PlanarStep step = registered ? *registered : centroid_step(track, object, scan, options);
   join_ends(track, sights, scan, object.length - track.length, step);
   const Eigen::Vector2d along = step.mean.head<2>();
-  if (!tells_step(sights, along, scan))
+  if (!tells_step(sights, normals, along, scan))
     step.covariance.topLeftCorner<2, 2>() += along * along.transpose();
   step.covariance.topLeftCorner<2, 2>() += ego_error(scan, object.centroid);
   return step;
 }
 
 /// Density of a step that keeps to the sensor, if the beams meet surfaces along it only.
-double density_of_locked(const ObjectTrack& track, const std::vector<Eigen::Vector3f>& now,
+/// @param normals of the object now.
+double density_of_locked(const ObjectTrack& track, const std::vector<Eigen::Vector3f>& normals,
                          const PlanarStep& step, const Pose& T_rest_lidar) {
   const Eigen::Vector3d with_us =
       T_rest_lidar * (track.T_rest_lidar.inverse() * track.centroid_rest) - track.centroid_rest;
@@ -183,7 +196,7 @@ double density_of_locked(const ObjectTrack& track, const std::vector<Eigen::Vect
                                           step.covariance.topLeftCorner<2, 2>());
   const Eigen::Vector2d ahead = level_axes(T_rest_lidar.linear()).transpose() * with_us.head<2>();
   if (ahead.norm() < 1e-3) return density;
-  return density * (1 - share_across(now, ahead.normalized()));
+  return density * (1 - share_across(normals, ahead.normalized()));
 }
 
 /// Parked or moving, by the step, and on which course.
@@ -225,9 +238,9 @@ ScanLesson learn_from_scans(const ObjectTrack& track, const ScanObject& object,
   lesson.log_odds = decayed(options.image_factor ? track.latest_log_odds : track.log_odds,
                             seconds_between(track.stamp, instant), options);
   if (!options.scan_factor) return lesson;
-  const PlanarStep step = measured_step(track, object, scan, lesson.state, options);
-  const double locked =
-      density_of_locked(track, points_at(scan.scan, object.points), step, scan.T_rest_lidar);
+  const auto normals = some_normals(points_at(scan.scan, object.points));
+  const PlanarStep step = measured_step(track, object, normals, scan, lesson.state, options);
+  const double locked = density_of_locked(track, normals, step, scan.T_rest_lidar);
   if (judge_step(track, step, locked, options, lesson)) lesson.state = updated(lesson.state, step);
   return lesson;
 }
