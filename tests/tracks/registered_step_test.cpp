@@ -15,10 +15,8 @@ using testing::vehicle;
 
 std::optional<PlanarStep> measured(std::vector<Eigen::Vector3f> before,
                                    std::vector<Eigen::Vector3f> now) {
-  ObjectScans scans;
-  scans.before = std::move(before);
-  scans.now = std::move(now);
-  return registered_step(scans, Eigen::Matrix3d::Identity());
+  const Surface surface_before(std::move(before)), surface_now(std::move(now));
+  return registered_step({surface_before, surface_now}, Eigen::Matrix3d::Identity());
 }
 
 TEST(RegisteredStep, of_a_piece_of_a_rear_is_sure_ahead_but_not_sideways) {
@@ -47,9 +45,8 @@ std::vector<Eigen::Vector3f> crossing_car(float y, float side) {
 }
 
 TEST(RegisteredStep, does_not_turn_a_corner_to_lie_along_a_side) {
-  ObjectScans scans;
-  scans.before = crossing_car(-5, 0);
-  scans.now = crossing_car(-4, 1.8F);
+  const Surface before(crossing_car(-5, 0)), now(crossing_car(-4, 1.8F));
+  ObjectScans scans{before, now};
   scans.T_mov_guess = Eigen::Translation3d(-0.5, 0.7, 0) * Pose::Identity();
   scans.turn_sigma_rad = 0.03;
   const auto step = registered_step(scans, Eigen::Matrix3d::Identity());

@@ -34,7 +34,7 @@ ScanLesson lesson_of(float rear_before, float rear_now, double ego_m = 0) {
   ObjectTrack track;
   track.stamp = kStart;
   track.T_rest_lidar = Pose::Identity();
-  track.points = before;
+  track.surface = std::make_shared<const Surface>(before);
   track.centroid_rest = mean_of(before);
   track.length = kLength_m;
   track.state = track.latest = new_track_state(kStart, options.noise);
@@ -49,7 +49,7 @@ ScanLesson lesson_of(float rear_before, float rear_now, double ego_m = 0) {
   object.length = kLength_m;
   const Pose T_rest_lidar(Eigen::Translation3d(ego_m, 0, 0));
   const Matrix6d exact = Matrix6d::Zero();
-  return learn_from_scans(track, object,
+  return learn_from_scans(track, object, Surface(now),
                           {scan, T_rest_lidar, exact, seen_now, &seen_before, kStart}, options);
 }
 

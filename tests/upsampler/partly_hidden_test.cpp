@@ -18,7 +18,9 @@ class PartlyHidden : public ::testing::Test {
     ObjectTrack car;
     car.id = 5;
     car.stamp = scan_.scan.stamp;
-    for (int i = 0; i < 20; ++i) car.points.emplace_back(10 + 0.2F * static_cast<float>(i), 5, 0);
+    std::vector<Eigen::Vector3f> points;
+    for (int i = 0; i < 20; ++i) points.emplace_back(10 + 0.2F * static_cast<float>(i), 5, 0);
+    car.surface = std::make_shared<const Surface>(std::move(points));
     car.centroid_rest = {12, 5, 0};
     car.length = 4;
     car.state.stamp = car.stamp;
@@ -54,8 +56,8 @@ TEST_F(PartlyHidden, it_goes_on_as_it_did_and_all_that_was_seen_of_it_comes_alon
   const ObjectTrack& car = store_.tracks.front();
   EXPECT_EQ(car.id, 5);
   EXPECT_EQ(car.stamp, scan_.scan.stamp);
-  ASSERT_EQ(car.points.size(), 20U);
-  EXPECT_NEAR(car.points.front().x(), 11, 0.01);
+  ASSERT_EQ(car.surface->points().size(), 20U);
+  EXPECT_NEAR(car.surface->points().front().x(), 11, 0.01);
   EXPECT_NEAR(car.centroid_rest.x(), 13, 0.01);
   EXPECT_NEAR(car.expected_at(shifted(car.stamp, 0.1), {}).mean[0], 1, 0.02);
   EXPECT_NEAR(car.state.covariance(0, 0), sigma_before, 1e-12) << "its place is no better known";
@@ -80,7 +82,9 @@ TEST_F(PartlyHidden, points_of_another_object_stay_its_own) {
   scan_.objects = {other};
   store_.tracks.push_back(store_.tracks.front());
   store_.tracks.back().centroid_rest.y() += 100;
-  for (Eigen::Vector3f& point : store_.tracks.back().points) point.y() += 100;
+  auto elsewhere = store_.tracks.back().surface->points();
+  for (Eigen::Vector3f& point : elsewhere) point.y() += 100;
+  store_.tracks.back().surface = std::make_shared<const Surface>(std::move(elsewhere));
   track_of_ = {1};
   take_up();
   ASSERT_EQ(scan_.objects.size(), 2U);

@@ -39,7 +39,12 @@ double heading_of(const TrackedScan& scan) {
   return std::atan2(T_rest_vehicle(1, 0), T_rest_vehicle(0, 0));
 }
 
-void see_anew(ObjectTrack& track, const ScanObject& object, const TrackedScan& scan) {
+std::shared_ptr<const Surface> surface_of(const ScanObject& object, const LidarScan& scan) {
+  return std::make_shared<const Surface>(points_at(scan, object.points));
+}
+
+void see_anew(ObjectTrack& track, const ScanObject& object, std::shared_ptr<const Surface> surface,
+              const TrackedScan& scan) {
   track.ahead.reset();
   track.latest = track.state;
   track.latest_log_odds = track.log_odds;
@@ -47,7 +52,7 @@ void see_anew(ObjectTrack& track, const ScanObject& object, const TrackedScan& s
   track.class_name = object.class_name;
   track.stamp = shifted(scan.scan.stamp, object.time_s);
   track.T_rest_lidar = scan.T_rest_lidar;
-  track.points = points_at(scan.scan, object.points);
+  track.surface = std::move(surface);
   track.centroid_rest = scan.T_rest_lidar * object.centroid;
   track.length = object.length;
   track.size = static_cast<double>(object.points.size()) * object.centroid.squaredNorm();
@@ -71,7 +76,7 @@ ObjectTrack new_track(const ScanObject& object, const TrackedScan& scan,
                             {whole.state, along});
   track.state = track.beginnings.front().from;
   track.log_odds = log_odds_of(moves);
-  see_anew(track, object, scan);
+  see_anew(track, object, surface_of(object, scan.scan), scan);
   return track;
 }
 
@@ -102,12 +107,13 @@ std::vector<int> take_up_scan(TrackStore& store, std::vector<ScanObject>& object
   tbb::parallel_for(std::size_t{0}, objects.size(), [&](std::size_t i) {
     if (track_of[i] < 0) return;
     ObjectTrack& track = tracks[track_of[i]];
-    const ScanLesson lesson = learn_from_scans(track, objects[i], scan, options);
+    auto surface = surface_of(objects[i], scan.scan);
+    const ScanLesson lesson = learn_from_scans(track, objects[i], *surface, scan, options);
     track.passage = Passage{lesson.from, lesson.state, lesson.surprises};
     track.state = from_here(lesson.state);
     track.beginnings.clear();
     track.log_odds = lesson.log_odds;
-    see_anew(track, objects[i], scan);
+    see_anew(track, objects[i], std::move(surface), scan);
   });
   for (std::size_t i = 0; i < objects.size(); ++i) {
     if (track_of[i] >= 0) continue;
@@ -132,14 +138,15 @@ std::vector<Eigen::Vector3f> points_by(const ObjectTrack& track, const TrackStat
   const Pose T_rest_then = motion_pose(motion, track.centroid_rest) * track.T_rest_lidar;
   const Eigen::Isometry3f T_lidar_then = (T_rest_lidar.inverse() * T_rest_then).cast<float>();
   std::vector<Eigen::Vector3f> points;
-  points.reserve(track.points.size());
-  for (const Eigen::Vector3f& point : track.points) points.emplace_back(T_lidar_then * point);
+  points.reserve(track.surface->points().size());
+  for (const Eigen::Vector3f& point : track.surface->points())
+    points.emplace_back(T_lidar_then * point);
   return points;
 }
 
 void go_on(ObjectTrack& track, TrackState now, const Pose& T_rest_lidar,
            const TrackOptions& options) {
-  track.points = points_by(track, now, T_rest_lidar);
+  track.surface = std::make_shared<const Surface>(points_by(track, now, T_rest_lidar));
   track.centroid_rest.head<2>() += now.mean.head<2>();
   track.T_rest_lidar = T_rest_lidar;
   track.log_odds = decayed(track.latest_log_odds, seconds_between(track.stamp, now.stamp), options);

@@ -2,11 +2,13 @@
 // Copyright (c) 2026, the lidar_upsampling authors
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "lidar_upsampling/registration/seen_space.h"
+#include "lidar_upsampling/registration/surface.h"
 #include "lidar_upsampling/tracks/motion_estimate.h"
 #include "lidar_upsampling/tracks/track_state.h"
 #include "lidar_upsampling/types.h"
@@ -73,9 +75,9 @@ struct ObjectTrack {
   int id = -1;
   int external_id = -1;  ///< the detector's own identity, -1 if none
   std::string class_name;
-  Stamp stamp;                           ///< of its last sight in a scan
-  Pose T_rest_lidar = Pose::Identity();  ///< then
-  std::vector<Eigen::Vector3f> points;   ///< lidar frame then
+  Stamp stamp;                             ///< of its last sight in a scan
+  Pose T_rest_lidar = Pose::Identity();    ///< then
+  std::shared_ptr<const Surface> surface;  ///< its points, lidar frame then
   Eigen::Vector3d centroid_rest = Eigen::Vector3d::Zero();
   double size = 0;                 ///< what is seen of it: points times squared range, as an area
   double length = 0;               ///< m, of what is seen of it

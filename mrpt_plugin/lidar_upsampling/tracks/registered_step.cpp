@@ -36,8 +36,8 @@ std::array<Eigen::Vector3d, 3> landmarks(const std::vector<Eigen::Vector3f>& poi
 
 /// Level steps over ground that the object may have taken, by its outline.
 std::array<Eigen::Vector3d, 3> steps_by_shape(const ObjectScans& scans) {
-  const auto before = landmarks(scans.before, scans.T_lidar_k_lidar_before);
-  auto step = landmarks(scans.now, Pose::Identity());
+  const auto before = landmarks(scans.before.points(), scans.T_lidar_k_lidar_before);
+  auto step = landmarks(scans.now.points(), Pose::Identity());
   for (std::size_t i = 0; i < step.size(); ++i) {
     step[i] -= before[i];
     if (i > 0) step[i].z() = 0;
@@ -46,15 +46,15 @@ std::array<Eigen::Vector3d, 3> steps_by_shape(const ObjectScans& scans) {
 }
 
 bool can_be_registered(const ObjectScans& scans, const ObjectRegistrationOptions& options) {
-  return static_cast<int>(scans.before.size()) >= options.min_points &&
-         static_cast<int>(scans.now.size()) >= options.min_points;
+  return static_cast<int>(scans.before.points().size()) >= options.min_points &&
+         static_cast<int>(scans.now.points().size()) >= options.min_points;
 }
 
 /// The object as it is now put on what was seen before.
 ObjectRegistration register_backwards(const ObjectScans& scans, std::vector<Pose> guesses,
                                       const ObjectRegistrationOptions& options) {
   for (Pose& guess : guesses) guess = guess.inverse();
-  ObjectRegistration result = register_object(scans.now, Surface(scans.before), guesses, options,
+  ObjectRegistration result = register_object(scans.now.points(), scans.before, guesses, options,
                                               {scans.seen_before, scans.seen_now});
   result.T_target_object = result.T_target_object.inverse();
   const Eigen::Matrix2d turn = result.T_target_object.linear().topLeftCorner<2, 2>();
@@ -65,8 +65,9 @@ ObjectRegistration register_backwards(const ObjectScans& scans, std::vector<Pose
 /// The view with fewer points is likelier to be a part of the other one than the reverse.
 ObjectRegistration register_views(const ObjectScans& scans, const std::vector<Pose>& guesses,
                                   const ObjectRegistrationOptions& options) {
-  if (scans.before.size() > scans.now.size()) return register_backwards(scans, guesses, options);
-  return register_object(scans.before, Surface(scans.now), guesses, options,
+  if (scans.before.points().size() > scans.now.points().size())
+    return register_backwards(scans, guesses, options);
+  return register_object(scans.before.points(), scans.now, guesses, options,
                          {scans.seen_now, scans.seen_before});
 }
 
@@ -88,7 +89,7 @@ std::optional<PlanarStep> step_of(const ObjectRegistration& registration, const 
     return {};
   // Over ground, in the axes of the lidar frame at k.
   const Pose T_mov_k = registration.T_target_object * scans.T_lidar_k_lidar_before.inverse();
-  const Eigen::Vector3d centroid = mean_of(scans.now);
+  const Eigen::Vector3d centroid = mean_of(scans.now.points());
   const Eigen::Vector3d moved = centroid - T_mov_k.inverse() * centroid;
   if (std::abs(moved.z()) > kMaxRise_m) return {};
   const double sigma =

@@ -3,18 +3,18 @@
 #pragma once
 
 #include <optional>
-#include <vector>
 
 #include "lidar_upsampling/registration/seen_space.h"
+#include "lidar_upsampling/registration/surface.h"
 #include "lidar_upsampling/se3.h"
 #include "lidar_upsampling/tracks/track_state.h"
 
 namespace lidar_upsampling {
 
-/// One object's points in two real scans.
+/// One object in two real scans.
 struct ObjectScans {
-  std::vector<Eigen::Vector3f> before;             ///< lidar frame at the scan before
-  std::vector<Eigen::Vector3f> now;                ///< lidar frame at k
+  const Surface& before;                           ///< lidar frame at the scan before
+  const Surface& now;                              ///< lidar frame at k
   Pose T_lidar_k_lidar_before = Pose::Identity();  ///< ego-motion
   Pose T_mov_guess = Pose::Identity();     ///< over ground, in the lidar frame at the scan before
   double turn_sigma_rad = 0;               ///< over ground; 0: any turn is as likely

@@ -18,26 +18,38 @@
 namespace lidar_upsampling {
 namespace {
 
+/// Normals at some of the points, evenly taken: a share of a surface needs no more.
+std::vector<Eigen::Vector3f> some_normals(const Surface& surface) {
+  constexpr std::size_t kMost = 100;  // the share's deviation is 5 % at worst
+  const std::size_t size = surface.points().size(), count = std::min(size, kMost);
+  std::vector<Eigen::Vector3f> normals;
+  for (std::size_t i = 0; i < count; ++i)
+    normals.push_back(surface.normal(static_cast<int>(i * size / count)));
+  return normals;
+}
+
 /// An object's sights in two scans.
 struct TwoSights {
   ObjectScans scans;
-  double dt = 0;  ///< s
+  double dt;  ///< s
   Eigen::Matrix2d axes_before, axes_now;
+  std::vector<Eigen::Vector3f> normals_now;
 };
 
-TwoSights two_sights(const ObjectTrack& track, const ScanObject& object, const TrackedScan& scan,
+TwoSights two_sights(const ObjectTrack& track, const Surface& surface, const TrackedScan& scan,
                      const TrackState& expected, const TrackOptions& options) {
-  TwoSights sights;
-  sights.dt = seconds_between(track.stamp, expected.stamp);
-  sights.axes_before = level_axes(track.T_rest_lidar.linear());
-  sights.axes_now = level_axes(scan.T_rest_lidar.linear());
+  TwoSights sights{{*track.surface, surface},
+                   seconds_between(track.stamp, expected.stamp),
+                   level_axes(track.T_rest_lidar.linear()),
+                   level_axes(scan.T_rest_lidar.linear()),
+                   some_normals(surface)};
   // Over ground, about the centroid, in the axes of the lidar frame then.
   Twist motion = Twist::Zero();
   motion[2] = expected.mean[2];
   motion.segment<2>(3) = sights.axes_before.transpose() * expected.mean.head<2>();
-  sights.scans = {track.points, points_at(scan.scan, object.points),
-                  scan.T_rest_lidar.inverse() * track.T_rest_lidar,
-                  motion_pose(motion, track.T_rest_lidar.inverse() * track.centroid_rest)};
+  sights.scans.T_lidar_k_lidar_before = scan.T_rest_lidar.inverse() * track.T_rest_lidar;
+  sights.scans.T_mov_guess =
+      motion_pose(motion, track.T_rest_lidar.inverse() * track.centroid_rest);
   sights.scans.turn_sigma_rad = options.noise.unknown_yaw_rate_sigma * sights.dt;
   sights.scans.points_per_observation = options.points.points_per_observation;
   const double between = seconds_between(scan.stamp_before, scan.scan.stamp);
@@ -61,17 +73,6 @@ PlanarStep centroid_step(const ObjectTrack& track, const ScanObject& object,
   return step;
 }
 
-/// Normals at some of the points, evenly taken: a share of a surface needs no more.
-std::vector<Eigen::Vector3f> some_normals(const std::vector<Eigen::Vector3f>& points) {
-  constexpr std::size_t kMost = 100;  // the share's deviation is 5 % at worst
-  const Surface surface(points);
-  const std::size_t count = std::min(points.size(), kMost);
-  std::vector<Eigen::Vector3f> normals;
-  for (std::size_t i = 0; i < count; ++i)
-    normals.push_back(surface.normal(static_cast<int>(i * points.size() / count)));
-  return normals;
-}
-
 /// The share of its surface that lies across a direction, and not along it.
 double share_across(const std::vector<Eigen::Vector3f>& normals, const Eigen::Vector2d& d) {
   constexpr float kAcross = 0.5F;  // within 60 degrees
@@ -84,19 +85,17 @@ double share_across(const std::vector<Eigen::Vector3f>& normals, const Eigen::Ve
 
 /// Whether what is seen of the object tells a step: by a face across it, or an end that both scans
 /// show. Else its ends are the edges of what hides the rest of it, and their steps are not its own.
-/// @param normals of the object now.
-bool tells_step(const TwoSights& sights, const std::vector<Eigen::Vector3f>& normals,
-                const Eigen::Vector2d& step, const TrackedScan& scan) {
+bool tells_step(const TwoSights& sights, const Eigen::Vector2d& step, const TrackedScan& scan) {
   constexpr double kFace = 0.1;  // of its surface: a face
   if (sights.scans.seen_before == nullptr || step.norm() < 1e-3) return true;
   const Eigen::Vector2d d = step.normalized();
-  const ObjectSight before{sights.scans.before, *sights.scans.seen_before};
-  const ObjectSight now{sights.scans.now, scan.seen};
+  const ObjectSight before{sights.scans.before.points(), *sights.scans.seen_before};
+  const ObjectSight now{sights.scans.now.points(), scan.seen};
   const Eigen::Vector2d d_before = sights.axes_before.transpose() * d;
   const Eigen::Vector2d d_now = sights.axes_now.transpose() * d;
   return (ends_in_sight(before, d_before) && ends_in_sight(now, d_now)) ||
          (ends_in_sight(before, -d_before) && ends_in_sight(now, -d_now)) ||
-         share_across(normals, d_now) > kFace;
+         share_across(sights.normals_now, d_now) > kFace;
 }
 
 /// Where the object ends on one side, m along a direction at rest; none if something hides its end.
@@ -125,9 +124,9 @@ void join_ends(const ObjectTrack& track, const TwoSights& sights, const TrackedS
       step.covariance.topLeftCorner<2, 2>());
   const Eigen::Vector2d loosest = solver.eigenvectors().col(1);
   for (const Eigen::Vector2d& ahead : {loosest, Eigen::Vector2d(-loosest)}) {
-    const auto before = end_of({sights.scans.before, *sights.scans.seen_before}, track.T_rest_lidar,
-                               sights.axes_before.transpose() * ahead, ahead);
-    const auto now = end_of({sights.scans.now, scan.seen}, scan.T_rest_lidar,
+    const auto before = end_of({sights.scans.before.points(), *sights.scans.seen_before},
+                               track.T_rest_lidar, sights.axes_before.transpose() * ahead, ahead);
+    const auto now = end_of({sights.scans.now.points(), scan.seen}, scan.T_rest_lidar,
                             sights.axes_now.transpose() * ahead, ahead);
     if (!before || !now) continue;
     const Eigen::Vector3d direction(ahead.x(), ahead.y(), 0);
@@ -173,14 +172,13 @@ class StepLikelihoods {
 
 /// What the scans tell of the step, the ego-motion's error included.
 PlanarStep measured_step(const ObjectTrack& track, const ScanObject& object,
-                         const std::vector<Eigen::Vector3f>& normals, const TrackedScan& scan,
-                         const TrackState& expected, const TrackOptions& options) {
-  const TwoSights sights = two_sights(track, object, scan, expected, options);
+                         const TwoSights& sights, const TrackedScan& scan,
+                         const TrackOptions& options) {
   const auto registered = registered_step(sights.scans, scan.T_rest_lidar.linear());
   PlanarStep step = registered ? *registered : centroid_step(track, object, scan, options);
   join_ends(track, sights, scan, object.length - track.length, step);
   const Eigen::Vector2d along = step.mean.head<2>();
-  if (!tells_step(sights, normals, along, scan))
+  if (!tells_step(sights, along, scan))
     step.covariance.topLeftCorner<2, 2>() += along * along.transpose();
   step.covariance.topLeftCorner<2, 2>() += ego_error(scan, object.centroid);
   return step;
@@ -230,7 +228,8 @@ double decayed(double log_odds, double dt, const TrackOptions& options) {
 }
 
 ScanLesson learn_from_scans(const ObjectTrack& track, const ScanObject& object,
-                            const TrackedScan& scan, const TrackOptions& options) {
+                            const Surface& surface, const TrackedScan& scan,
+                            const TrackOptions& options) {
   const Stamp instant = shifted(scan.scan.stamp, object.time_s);
   ScanLesson lesson;
   lesson.from = options.image_factor ? track.latest : track.state;
@@ -238,9 +237,9 @@ ScanLesson learn_from_scans(const ObjectTrack& track, const ScanObject& object,
   lesson.log_odds = decayed(options.image_factor ? track.latest_log_odds : track.log_odds,
                             seconds_between(track.stamp, instant), options);
   if (!options.scan_factor) return lesson;
-  const auto normals = some_normals(points_at(scan.scan, object.points));
-  const PlanarStep step = measured_step(track, object, normals, scan, lesson.state, options);
-  const double locked = density_of_locked(track, normals, step, scan.T_rest_lidar);
+  const TwoSights sights = two_sights(track, surface, scan, lesson.state, options);
+  const PlanarStep step = measured_step(track, object, sights, scan, options);
+  const double locked = density_of_locked(track, sights.normals_now, step, scan.T_rest_lidar);
   if (judge_step(track, step, locked, options, lesson)) lesson.state = updated(lesson.state, step);
   return lesson;
 }

@@ -16,8 +16,10 @@ struct ScanLesson {
 
 /// @brief The object's motion since its last sight, by registration of its points (where that
 /// fails, by its centroid), joined with what was expected.
+/// @param surface of the object in this scan.
 [[nodiscard]] ScanLesson learn_from_scans(const ObjectTrack& track, const ScanObject& object,
-                                          const TrackedScan& scan, const TrackOptions& options);
+                                          const Surface& surface, const TrackedScan& scan,
+                                          const TrackOptions& options);
 
 [[nodiscard]] double prior_log_odds(const TrackOptions& options);
 
