@@ -171,6 +171,13 @@ void SettingList::choice(const char* key, const std::vector<std::string>& choice
        [choices, set](const std::string& text) { set(choice_from(text, choices)); }});
 }
 
+void SettingList::former(const std::string& text, const std::string& now) {
+  Setting& setting = sections.back().settings.back();
+  setting.set = [set = setting.set, text, now](const std::string& given) {
+    set(given == text ? now : given);
+  };
+}
+
 void Config::loadFromConfigFile(const CConfigFileBase& source, const std::string& main_section) {
   for (const SettingSection& section : settings_of(*this))
     load(section, source, section.name.empty() ? main_section : section.name);

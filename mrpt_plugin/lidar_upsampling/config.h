@@ -47,7 +47,7 @@ struct Config : public mrpt::config::CLoadableOptions {
   std::vector<std::string> camera_labels;  ///< empty: every image stream with a calibration
   std::string output_label;                ///< empty: `<lidar_label>_VIRTUAL`
   std::string carrier = "auto";
-  int compression = 1;
+  Compression compression = Compression::fast;
   std::string mode = "causal";
   int scans_ahead = 3;
   std::string preset = "default";

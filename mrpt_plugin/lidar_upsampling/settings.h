@@ -53,6 +53,9 @@ struct SettingList {
         [&value](std::size_t position) { value = static_cast<Enum>(position); });
   }
 
+  /// What the last setting was called before, so that files from then still work.
+  void former(const std::string& text, const std::string& now);
+
  private:
   template <typename T, typename Read>
   void add(const char* key, T& value, const std::string& comment, Read read);

@@ -21,6 +21,9 @@ namespace lidar_upsampling {
 /// An instant, in MRPT's 100 ns ticks. Copied, never sent through a double.
 using Stamp = mrpt::Clock::time_point;
 
+/// How logs are packed that are written: not at all, at the speed of a disk, or smaller.
+enum class Compression { none, fast, small };
+
 /// A rigid motion; always named T_target_source.
 using Pose = Eigen::Isometry3d;
 

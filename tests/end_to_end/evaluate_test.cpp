@@ -14,7 +14,7 @@ namespace {
 template <typename Made>
 void write_pretended(const TestFolder& folder, const Made& made) {
   const auto truth = observations_of(folder / "truth.rawlog");
-  RawlogWriter writer(folder / "out.rawlog", true, 1);
+  RawlogWriter writer(folder / "out.rawlog", true);
   mrpt::obs::CObservation::Ptr last;
   std::size_t next = 0;
   const auto write_until = [&](Stamp stamp) {

@@ -115,7 +115,7 @@ TEST(RawlogWriter, a_full_disk_is_an_error_and_leaves_nothing) {
   const TestFolder folder;
   const auto picture = colour_picture();
   const auto write_pictures = [&](int count) {
-    RawlogWriter writer(folder / "a.rawlog", false, 0);
+    RawlogWriter writer(folder / "a.rawlog", false, Compression::none);
     for (int i = 0; i < count; ++i) writer.write(*picture);
     writer.commit();
   };

@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "lidar_upsampling/io/gzip_file.h"
+#include "lidar_upsampling/io/gzip_reader.h"
 #include "lidar_upsampling/io/images.h"
 #include "lidar_upsampling/io/rawlog_stream.h"
 

@@ -12,7 +12,8 @@
 #include <filesystem>
 #include <system_error>
 
-#include "lidar_upsampling/io/gzip_file.h"
+#include "lidar_upsampling/io/gzip_reader.h"
+#include "lidar_upsampling/io/gzip_writer.h"
 #include "lidar_upsampling/text.h"
 
 namespace fs = std::filesystem;
@@ -159,7 +160,7 @@ std::string checked_output_path(const std::string& path, bool overwrite) {
 
 }  // namespace
 
-RawlogWriter::RawlogWriter(const std::string& path, bool overwrite, int compression)
+RawlogWriter::RawlogWriter(const std::string& path, bool overwrite, Compression compression)
     : path_(checked_output_path(path, overwrite)),
       temporary_path_(path_ + ".tmp-" + std::to_string(getpid())),
       overwrite_(overwrite),

@@ -11,6 +11,8 @@
 #include <string>
 #include <vector>
 
+#include "lidar_upsampling/types.h"
+
 namespace lidar_upsampling {
 
 class GzipWriter;
@@ -78,10 +80,10 @@ class RawlogReader {
 /// `commit()`, and is removed if that never comes.
 class RawlogWriter {
  public:
-  /// @param compression gzip level, 0 to 9 (above 1 costs time and saves nothing on scans).
   /// @throw std::runtime_error `path` exists and `overwrite` is off, is no regular file, or cannot
   /// be written.
-  RawlogWriter(const std::string& path, bool overwrite, int compression = 1);
+  RawlogWriter(const std::string& path, bool overwrite,
+               Compression compression = Compression::fast);
   ~RawlogWriter();
   RawlogWriter(const RawlogWriter&) = delete;
   RawlogWriter& operator=(const RawlogWriter&) = delete;

@@ -3,9 +3,9 @@
 #pragma once
 
 #include <mrpt/io/CStream.h>
-#include <zlib.h>
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -13,7 +13,8 @@
 
 namespace lidar_upsampling {
 
-/// @brief Reads a plain or gzip file and keeps a record of what was read.
+/// @brief Reads a plain or gzip file (RFC 1952, of one member or of many), unpacked a little ahead
+/// by a thread of its own, and keeps a record of what was read.
 /// mrpt::io::CFileGZInputStream cannot serve: it does not tell the end of the data from a gzip
 /// stream that is cut or damaged.
 class RecordingGzipReader : public mrpt::io::CStream {
@@ -24,6 +25,7 @@ class RecordingGzipReader : public mrpt::io::CStream {
   RecordingGzipReader(const RecordingGzipReader&) = delete;
   RecordingGzipReader& operator=(const RecordingGzipReader&) = delete;
 
+  /// All good bytes before a defect are given.
   size_t Read(void* buffer, size_t count) override;
   uint64_t getTotalBytesCount() const override { return file_size_; }
   uint64_t getPosition() const override { return position_; }
@@ -34,7 +36,7 @@ class RecordingGzipReader : public mrpt::io::CStream {
 
   /// Whether nothing is left to read, be it the clean end or a defect.
   [[nodiscard]] bool at_end();
-  /// Why no more can be read, where that is not the clean end.
+  /// Why no more can be read, where that is not the clean end; none as long as more can be.
   [[nodiscard]] std::optional<std::string> defect() const;
   /// All that was read since the last call.
   [[nodiscard]] std::vector<std::uint8_t> take_record();
@@ -42,31 +44,13 @@ class RecordingGzipReader : public mrpt::io::CStream {
   [[nodiscard]] double progress() const;
 
  private:
+  class Ahead;
+
   std::string path_;
-  gzFile file_ = nullptr;
   std::uint64_t file_size_ = 0;
   std::uint64_t position_ = 0;  // in the uncompressed data
   std::vector<std::uint8_t> record_;
-};
-
-/// @brief Writes a gzip file, and knows whether all of it reached the disk.
-class GzipWriter {
- public:
-  /// @param level 0 to 9. @throw std::runtime_error the file is there already, or cannot be made.
-  GzipWriter(const std::string& path, int level);
-  ~GzipWriter();
-  GzipWriter(const GzipWriter&) = delete;
-  GzipWriter& operator=(const GzipWriter&) = delete;
-
-  /// @throw std::runtime_error the system's reason, as "No space left on device".
-  void write(const std::vector<std::uint8_t>& bytes);
-  void close();
-
- private:
-  [[noreturn]] void fail(int error_number) const;
-
-  std::string path_;
-  gzFile file_ = nullptr;
+  std::unique_ptr<Ahead> ahead_;
 };
 
 }  // namespace lidar_upsampling

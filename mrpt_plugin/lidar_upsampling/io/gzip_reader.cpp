@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the lidar_upsampling authors
+#include "lidar_upsampling/io/gzip_reader.h"
+
+#include <algorithm>
+#include <condition_variable>
+#include <deque>
+#include <mutex>
+#include <thread>
+#include <utility>
+
+#include "lidar_upsampling/io/unpacker.h"
+
+namespace lidar_upsampling {
+
+/// The thread that unpacks, and what it has ready.
+class RecordingGzipReader::Ahead {
+ public:
+  explicit Ahead(const std::string& path) : unpacker_(path), file_size_(unpacker_.file_size()) {
+    thread_ = std::thread([this] { unpack(); });
+  }
+  ~Ahead() {
+    {
+      const std::lock_guard lock(mutex_);
+      is_over_ = true;
+    }
+    changed_.notify_all();
+    thread_.join();
+  }
+  Ahead(const Ahead&) = delete;
+  Ahead& operator=(const Ahead&) = delete;
+
+  [[nodiscard]] std::uint64_t file_size() const { return file_size_; }
+  [[nodiscard]] std::uint64_t file_position() const { return current_.file_position; }
+  [[nodiscard]] bool at_end() {
+    if (used_ < current_.bytes.size()) return false;
+    fetch();
+    return current_.bytes.empty();
+  }
+  /// Why there is no more, once there is none.
+  [[nodiscard]] const std::optional<std::string>& defect() const { return current_.defect; }
+
+  std::size_t read(std::uint8_t* out, std::size_t count) {
+    if (at_end()) return 0;
+    const std::size_t step = std::min(count, current_.bytes.size() - used_);
+    std::copy_n(current_.bytes.data() + used_, step, out);
+    used_ += step;
+    return step;
+  }
+
+ private:
+  struct Block {
+    std::vector<std::uint8_t> bytes;  // none: the end
+    std::uint64_t file_position = 0;
+    std::optional<std::string> defect;
+  };
+
+  void fetch() {
+    std::unique_lock lock(mutex_);
+    if (is_ended_) return;
+    changed_.wait(lock, [this] { return !ready_.empty(); });
+    current_ = std::move(ready_.front());
+    ready_.pop_front();
+    used_ = 0;
+    is_ended_ = current_.bytes.empty();
+    lock.unlock();
+    changed_.notify_all();
+  }
+
+  void unpack() {
+    constexpr std::size_t kBlock = 1U << 20U, kMostReady = 4;
+    for (bool has_more = true; has_more;) {
+      Block block;
+      block.bytes.resize(kBlock);
+      block.bytes.resize(unpacker_.unpack(block.bytes));
+      block.file_position = unpacker_.file_position();
+      has_more = !block.bytes.empty();
+      if (!has_more) block.defect = unpacker_.defect();
+      std::unique_lock lock(mutex_);
+      changed_.wait(lock, [this] { return is_over_ || ready_.size() < kMostReady; });
+      if (is_over_) return;
+      ready_.push_back(std::move(block));
+      lock.unlock();
+      changed_.notify_all();
+    }
+  }
+
+  Unpacker unpacker_;
+  const std::uint64_t file_size_;
+  Block current_;  // the reader's
+  std::size_t used_ = 0;
+  bool is_ended_ = false;
+
+  std::mutex mutex_;  // of what both use
+  std::condition_variable changed_;
+  std::deque<Block> ready_;
+  bool is_over_ = false;
+  std::thread thread_;
+};
+
+RecordingGzipReader::RecordingGzipReader(const std::string& path)
+    : path_(path), ahead_(std::make_unique<Ahead>(path)) {
+  file_size_ = ahead_->file_size();
+}
+
+RecordingGzipReader::~RecordingGzipReader() = default;
+
+size_t RecordingGzipReader::Read(void* buffer, size_t count) {
+  auto* const out = static_cast<std::uint8_t*>(buffer);
+  std::size_t done = 0;
+  while (done < count) {
+    const std::size_t got = ahead_->read(out + done, count - done);
+    if (got == 0) break;
+    done += got;
+  }
+  record_.insert(record_.end(), out, out + done);
+  position_ += done;
+  return done;
+}
+
+bool RecordingGzipReader::at_end() { return ahead_->at_end(); }
+
+std::optional<std::string> RecordingGzipReader::defect() const { return ahead_->defect(); }
+
+std::vector<std::uint8_t> RecordingGzipReader::take_record() {
+  // Not moved out: the next object is likely as large, and so is read without growing step by step.
+  std::vector<std::uint8_t> bytes(record_);
+  record_.clear();
+  return bytes;
+}
+
+double RecordingGzipReader::progress() const {
+  if (file_size_ == 0) return 1.;
+  return std::min(1.,
+                  static_cast<double>(ahead_->file_position()) / static_cast<double>(file_size_));
+}
+
+}  // namespace lidar_upsampling

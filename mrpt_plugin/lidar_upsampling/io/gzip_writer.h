@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the lidar_upsampling authors
+#pragma once
+
+#include <condition_variable>
+#include <cstdint>
+#include <deque>
+#include <exception>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "lidar_upsampling/io/packer.h"
+
+namespace lidar_upsampling {
+
+/// @brief Writes a file, gzip members one after the other or plain, packed by a thread of its own;
+/// and knows whether all of it reached the disk. The same writes give the same file.
+class GzipWriter {
+ public:
+  /// @throw std::runtime_error the file is there already, or cannot be made.
+  GzipWriter(const std::string& path, Compression compression);
+  ~GzipWriter();
+  GzipWriter(const GzipWriter&) = delete;
+  GzipWriter& operator=(const GzipWriter&) = delete;
+
+  /// What is written at once stays in one member.
+  /// @throw std::runtime_error the system's reason, as "No space left on device", of this write or
+  /// of one before.
+  void write(const std::vector<std::uint8_t>& bytes);
+  /// The last call to make. @throw std::runtime_error likewise.
+  void close();
+
+ private:
+  using Bytes = std::vector<std::uint8_t>;
+
+  void hand_over(Bytes block);
+  void join();
+  void work();
+  void write_out(const Bytes& bytes);
+  [[noreturn]] void fail(int error_number) const;
+
+  std::string path_;
+  int file_ = -1;
+  std::unique_ptr<Packer> packer_;  // the worker's
+  Bytes block_;                     // that gathers
+
+  std::mutex mutex_;  // of what both threads use
+  std::condition_variable changed_;
+  std::deque<Bytes> waiting_;
+  bool is_over_ = false;
+  std::exception_ptr error_;
+  std::thread worker_;
+};
+
+}  // namespace lidar_upsampling

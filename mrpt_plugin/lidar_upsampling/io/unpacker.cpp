@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the lidar_upsampling authors
+#include "lidar_upsampling/io/unpacker.h"
+
+#include <fcntl.h>
+#include <isa-l/igzip_lib.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <stdexcept>
+#include <system_error>
+#include <utility>
+
+namespace lidar_upsampling {
+namespace {
+
+constexpr std::size_t kInput = 1U << 18U;
+constexpr std::uint8_t kMagic[] = {0x1f, 0x8b};
+
+std::string reason_of(int code) {
+  switch (code) {
+    case ISAL_INCORRECT_CHECKSUM:
+      return "its checksum is another one";
+    case ISAL_INVALID_WRAPPER:
+    case ISAL_UNSUPPORTED_METHOD:
+      return "its header is none that gzip writes";
+    default:
+      return "its codes make no sense";
+  }
+}
+
+}  // namespace
+
+void throw_open_error(const std::string& path, const char* purpose, int error_number) {
+  throw std::runtime_error("cannot open " + path + " for " + purpose + ": " +
+                           std::generic_category().message(error_number));
+}
+
+Unpacker::Unpacker(const std::string& path) : input_(kInput) {
+  struct stat info {};
+  file_ = open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (file_ < 0 || fstat(file_, &info) != 0) throw_open_error(path, "reading", errno);
+  if (S_ISDIR(info.st_mode)) {
+    close(file_);
+    throw_open_error(path, "reading", EISDIR);
+  }
+  file_size_ = static_cast<std::uint64_t>(info.st_size);
+  if (!starts_member()) return;
+  kind_ = Kind::gzip;
+  state_ = std::make_unique<inflate_state>();
+  isal_inflate_init(state_.get());
+  state_->crc_flag = ISAL_GZIP;
+}
+
+Unpacker::~Unpacker() { close(file_); }
+
+std::uint64_t Unpacker::file_position() const { return num_read_ - size_; }
+
+std::size_t Unpacker::unpack(std::vector<std::uint8_t>& block) {
+  if (is_at_end_) return 0;
+  return kind_ == Kind::gzip ? inflate(block) : copy(block);
+}
+
+// What is left moves to the front, so that two bytes of a header are always seen together.
+bool Unpacker::refill() {
+  std::copy_n(input_.begin() + static_cast<std::ptrdiff_t>(begin_), size_, input_.begin());
+  begin_ = 0;
+  while (size_ < input_.size()) {
+    const ssize_t got = read(file_, input_.data() + size_, input_.size() - size_);
+    if (got < 0 && errno == EINTR) continue;
+    if (got < 0) defect_ = "read error: " + std::generic_category().message(errno);
+    if (got <= 0) break;
+    size_ += static_cast<std::size_t>(got);
+    num_read_ += static_cast<std::size_t>(got);
+  }
+  return size_ > 0;
+}
+
+bool Unpacker::starts_member() {
+  if (size_ < sizeof kMagic) refill();
+  return size_ >= sizeof kMagic &&
+         std::equal(std::begin(kMagic), std::end(kMagic), input_.data() + begin_);
+}
+
+std::size_t Unpacker::end(std::size_t done, std::optional<std::string> defect) {
+  is_at_end_ = true;
+  if (!defect_) defect_ = std::move(defect);
+  return done;
+}
+
+std::size_t Unpacker::copy(std::vector<std::uint8_t>& block) {
+  std::size_t done = 0;
+  while (done < block.size()) {
+    if (size_ == 0 && !refill()) return end(done, {});
+    const std::size_t step = std::min(size_, block.size() - done);
+    std::copy_n(input_.data() + begin_, step, block.data() + done);
+    begin_ += step;
+    size_ -= step;
+    done += step;
+  }
+  return done;
+}
+
+std::size_t Unpacker::inflate(std::vector<std::uint8_t>& block) {
+  inflate_state& state = *state_;
+  std::size_t done = 0;
+  while (done < block.size()) {
+    const bool has_input = size_ > 0 || refill();  // none: what is unpacked may still wait inside
+    const std::size_t before = done;
+    state.next_in = input_.data() + begin_;
+    state.avail_in = static_cast<std::uint32_t>(size_);
+    state.next_out = block.data() + done;
+    state.avail_out = static_cast<std::uint32_t>(block.size() - done);
+    const int code = isal_inflate(&state);
+    begin_ += size_ - state.avail_in;
+    size_ = state.avail_in;
+    done = block.size() - state.avail_out;
+    if (code != ISAL_DECOMP_OK) return end(done, "the gzip stream is damaged: " + reason_of(code));
+    if (state.block_state != ISAL_BLOCK_FINISH) {
+      if (!has_input && done == before) return end(done, "the gzip stream is cut off");
+      continue;
+    }
+    if (!starts_member()) return end(done, {});
+    isal_inflate_reset(&state);
+    state.crc_flag = ISAL_GZIP;
+  }
+  return done;
+}
+
+}  // namespace lidar_upsampling

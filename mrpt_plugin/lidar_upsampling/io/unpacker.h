@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the lidar_upsampling authors
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+struct inflate_state;
+
+namespace lidar_upsampling {
+
+/// @brief The system's words for why a file cannot be used, "cannot open x for reading: ...".
+/// @throw std::runtime_error always.
+[[noreturn]] void throw_open_error(const std::string& path, const char* purpose, int error_number);
+
+/// @brief Unpacks a file block by block: gzip (RFC 1952), its members one after the other and
+/// whatever follows them left out, as gunzip does; or a plain file, as it is.
+class Unpacker {
+ public:
+  /// @throw std::runtime_error the file cannot be opened, or is a folder.
+  explicit Unpacker(const std::string& path);
+  ~Unpacker();
+  Unpacker(const Unpacker&) = delete;
+  Unpacker& operator=(const Unpacker&) = delete;
+
+  /// Fills `block` with the next bytes, as many as it has room for. @return how many; fewer at the
+  /// end, clean or not.
+  std::size_t unpack(std::vector<std::uint8_t>& block);
+
+  /// Why the end is no clean one.
+  [[nodiscard]] const std::optional<std::string>& defect() const { return defect_; }
+  [[nodiscard]] std::uint64_t file_size() const { return file_size_; }
+  /// Bytes of the file that have been used.
+  [[nodiscard]] std::uint64_t file_position() const;
+
+ private:
+  enum class Kind { plain, gzip };
+
+  /// @return whether there is input.
+  bool refill();
+  bool starts_member();
+  std::size_t copy(std::vector<std::uint8_t>& block);
+  std::size_t inflate(std::vector<std::uint8_t>& block);
+  std::size_t end(std::size_t done, std::optional<std::string> defect);
+
+  int file_ = -1;
+  std::uint64_t file_size_ = 0, num_read_ = 0;
+  Kind kind_ = Kind::plain;
+  bool is_at_end_ = false;
+  std::vector<std::uint8_t> input_;
+  std::size_t begin_ = 0, size_ = 0;  // of what is left of `input_`
+  std::unique_ptr<inflate_state> state_;
+  std::optional<std::string> defect_;
+};
+
+}  // namespace lidar_upsampling
