@@ -77,6 +77,9 @@ Ambiguity ambiguity_of(const ObjectFit& problem, const Fitted& best) {
 
 using Points = std::vector<Eigen::Vector3f>;
 
+// So many points tell which start leads home; all that are asked for, where exactly that is.
+constexpr std::size_t kCoarse = 60;
+
 /// The best start on a half-metre grid around the ego-motion.
 Fitted search_start(const ObjectFit& problem) {
   constexpr double kCell = 0.5;
@@ -140,8 +143,11 @@ ObjectRegistration register_object(const Points& points_object, const Surface& t
     return result;
   }
   const Points points = evenly_thinned(points_object, static_cast<std::size_t>(options.max_points));
+  const Points few = evenly_thinned(points, kCoarse);
   const ObjectFit problem{points, target, guesses.front(), options, mean_of(points), clues};
-  const Fitted best = best_fit(problem, guesses);
+  const ObjectFit coarse{few, target, guesses.front(), options, mean_of(few), clues};
+  Fitted best = best_fit(coarse, guesses);
+  if (few.size() < points.size()) best = converge(problem, best.T);
   result.T_target_object = best.T;
   result.overlap = overlap_of(problem, best.T);
   if (result.overlap < options.min_overlap) {
@@ -151,7 +157,7 @@ ObjectRegistration register_object(const Points& points_object, const Surface& t
   const SurfaceResidual residual = residual_of(problem, best.T);
   result.residual_m = residual.rms_m;
   result.num_points = residual.num_points;
-  const Ambiguity ambiguity = ambiguity_of(problem, best);
+  const Ambiguity ambiguity = ambiguity_of(coarse, {best.T, score_of(coarse, best.T)});
   result.spread_m = ambiguity.spread_m;
   result.slack = ambiguity.slack;
   result.status = result.spread_m > options.max_spread_m ? RegistrationStatus::ambiguous
