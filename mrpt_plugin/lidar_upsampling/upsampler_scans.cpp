@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the lidar_upsampling authors
 // Real scans, as LidarUpsampler takes them up.
+#include <tbb/parallel_invoke.h>
+
 #include <utility>
 
 #include "lidar_upsampling/camera_view.h"
@@ -45,6 +47,33 @@ void sort_clusters(const Config& config, PreparedScan& prepared) {
                                          segments.clusters[i].size(),
                                          why[i]});
   }
+}
+
+// What a scan shows by itself. @return the stages' times.
+std::vector<StageTime> look_at(const Config& config, PreparedScan& prepared) {
+  const LidarScan& scan = prepared.scan;
+  std::vector<StageTime> times, of_beams;
+  const auto sort_points = [&] {
+    {
+      const Stopwatch watch(times, "ground and clusters");
+      prepared.segments = segment_scan(scan, config.segments);
+    }
+    {
+      const Stopwatch watch(times, "seen space");
+      prepared.seen =
+          std::make_shared<const SeenSpace>(scan.points, prepared.segments.vertical_step_deg);
+    }
+    const Stopwatch watch(times, "candidates");
+    sort_clusters(config, prepared);
+  };
+  const auto find_beams = [&] {
+    if (config.resample != "beam") return;
+    const Stopwatch watch(of_beams, "beams");
+    prepared.resampler = std::make_unique<const BeamResampler>(scan, config.resampling);
+  };
+  tbb::parallel_invoke(sort_points, find_beams);
+  times.insert(times.end(), of_beams.begin(), of_beams.end());
+  return times;
 }
 
 // What lies in a detector's boxes on a picture that shows the scan.
@@ -94,7 +123,8 @@ std::unique_ptr<PreparedScan> LidarUpsampler::prepared(LidarScan scan, const Pre
   const auto as_measured = times.empty() ? std::vector<Eigen::Vector3f>{} : scan.points;
   straighten(scan, times, before != nullptr ? before->motion.rate : Twist(Twist::Zero()));
   result->scan = std::move(scan);
-  if (before != nullptr) {
+  const auto join = [&] {
+    if (before == nullptr) return;
     step_between_scans(*before, *result);
     if (!times.empty() && result->motion.is_measured &&
         !given_step(before->scan, result->scan.stamp)) {
@@ -104,22 +134,16 @@ std::unique_ptr<PreparedScan> LidarUpsampler::prepared(LidarScan scan, const Pre
     result->T_rest_lidar = before->T_rest_lidar * result->T_scan_before.inverse();
     result->seen_before = before->seen;
     result->stamp_before = before->scan.stamp;
+  };
+  std::vector<StageTime> of_look;
+  const auto look = [&] { of_look = look_at(config_, *result); };
+  if (times.empty()) {
+    tbb::parallel_invoke(join, look);
+  } else {  // points that the motion straightens wait for it
+    join();
+    look();
   }
-  {
-    const Stopwatch watch(timing_, "ground and clusters");
-    result->segments = segment_scan(result->scan, config_.segments);
-  }
-  {
-    const Stopwatch watch(timing_, "seen space");
-    result->seen =
-        std::make_shared<const SeenSpace>(result->scan.points, result->segments.vertical_step_deg);
-  }
-  if (config_.resample == "beam") {
-    const Stopwatch watch(timing_, "beams");
-    result->resampler = std::make_unique<const BeamResampler>(result->scan, config_.resampling);
-  }
-  const Stopwatch watch(timing_, "candidates");
-  sort_clusters(config_, *result);
+  timing_.insert(timing_.end(), of_look.begin(), of_look.end());
   return result;
 }
 

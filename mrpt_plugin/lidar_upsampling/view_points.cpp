@@ -2,8 +2,12 @@
 // Copyright (c) 2026, the lidar_upsampling authors
 #include "lidar_upsampling/view_points.h"
 
+#include <tbb/parallel_for.h>
+#include <tbb/parallel_invoke.h>
+
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 namespace lidar_upsampling {
 namespace {
@@ -21,10 +25,12 @@ std::vector<ProjectedPoint> at_anchor(std::vector<ProjectedPoint> points,
 SurfaceMap surfaces_of(const AnchoredScan& anchored, const CameraView& view, const LidarScan& scan,
                        const Pose& T_camera_lidar_a, const cv::Size& size) {
   constexpr int kAll = std::numeric_limits<int>::max();
-  std::vector<std::vector<ProjectedPoint>> objects;
-  for (const FollowedObject& object : view.objects)
-    objects.push_back(at_anchor(followable_points(anchored, object.points, kAll), object, view,
-                                scan, T_camera_lidar_a));
+  std::vector<std::vector<ProjectedPoint>> objects(view.objects.size());
+  tbb::parallel_for(std::size_t{0}, objects.size(), [&](std::size_t i) {
+    const FollowedObject& object = view.objects[i];
+    objects[i] = at_anchor(followable_points(anchored, object.points, kAll), object, view, scan,
+                           T_camera_lidar_a);
+  });
   return surfaces_on(anchored, objects, size);
 }
 
@@ -50,18 +56,25 @@ void choose_points(CameraView& view, const AnchoredScan& anchored, const cv::Mat
                    const Config& config) {
   const PointTrackOptions& options = config.point_tracks;
   const int enough = 2 * config.object_motion.picture.min_points;
-  if (options.own_surface)
-    view.points.surfaces = surfaces_of(anchored, view, scan, T_camera_lidar_a, texture.size());
-  for (std::size_t i = 0; i < view.objects.size(); ++i) {
-    const FollowedObject& object = view.objects[i];
-    const auto points = at_anchor(followable_points(anchored, object.points, enough), object, view,
-                                  scan, T_camera_lidar_a);
-    const auto chosen =
-        choose_spread(points, texture, options.max_points_per_object, options.border_px);
-    add_points(view.points, points, chosen, scan, static_cast<int>(i));
-  }
-  if (with_static_points)
-    add_static_points(view.points, anchored, view.objects, scan, texture, config.static_points);
+  SurfaceMap surfaces;
+  const auto paint_surfaces = [&] {
+    if (options.own_surface)
+      surfaces = surfaces_of(anchored, view, scan, T_camera_lidar_a, texture.size());
+  };
+  const auto choose = [&] {
+    for (std::size_t i = 0; i < view.objects.size(); ++i) {
+      const FollowedObject& object = view.objects[i];
+      const auto points = at_anchor(followable_points(anchored, object.points, enough), object,
+                                    view, scan, T_camera_lidar_a);
+      const auto chosen =
+          choose_spread(points, texture, options.max_points_per_object, options.border_px);
+      add_points(view.points, points, chosen, scan, static_cast<int>(i));
+    }
+    if (with_static_points)
+      add_static_points(view.points, anchored, view.objects, scan, texture, config.static_points);
+  };
+  tbb::parallel_invoke(paint_surfaces, choose);
+  view.points.surfaces = std::move(surfaces);
 }
 
 }  // namespace lidar_upsampling
