@@ -71,6 +71,7 @@ void align_all(const ImagePyramid& from, const ImagePyramid& to,
                const std::vector<cv::Point2f>& points, const std::vector<cv::Point2f>& guesses,
                const PointLabels* labels, KltResult& result) {
   constexpr std::size_t kGrainSize = 32;
+  constexpr float kSameStart_px = 0.25F;  // as steps are whole pixels at first, they end alike
   const auto align_one = [&](std::size_t i) {
     std::vector<float> own;
     if (labels != nullptr) own = own_pixels(labels->surfaces, labels->of_point[i], points[i]);
@@ -80,7 +81,11 @@ void align_all(const ImagePyramid& from, const ImagePyramid& to,
       if (found && (!best || found->residual < best->residual)) best = std::move(found);
     };
     if (result.tracked[i] != 0) align_from(result.points[i]);
-    if (!own.empty()) align_from(guesses[i]);
+    const auto is_new = [&](const cv::Point2f& start) {
+      const cv::Point2f apart = start - result.points[i];
+      return result.tracked[i] == 0 || std::hypot(apart.x, apart.y) > kSameStart_px;
+    };
+    if (!own.empty() && is_new(guesses[i])) align_from(guesses[i]);
     result.tracked[i] = best ? 1 : 0;
     if (!best) return;
     result.points[i] = best->point;
