@@ -19,12 +19,13 @@ cv::Mat noise(int seed) {
   cv::theRNG().state = static_cast<std::uint64_t>(seed);
   cv::randu(picture, 0, 256);
   cv::GaussianBlur(picture, picture, cv::Size(), 1.5);
+  picture.convertTo(picture, CV_32F);
   return picture;
 }
 
 /// Upright stripes, nothing changes from row to row.
 cv::Mat stripes() {
-  cv::Mat picture(100, 100, CV_8UC1);
+  cv::Mat picture(100, 100, CV_32FC1);
   for (int u = 0; u < picture.cols; ++u) picture.col(u) = cv::Scalar(128 + 100 * std::sin(0.7 * u));
   return picture;
 }

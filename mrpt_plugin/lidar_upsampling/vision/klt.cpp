@@ -77,7 +77,7 @@ void align_all(const ImagePyramid& from, const ImagePyramid& to,
     if (labels != nullptr) own = own_pixels(labels->surfaces, labels->of_point[i], points[i]);
     std::optional<Alignment> best;
     const auto align_from = [&](const cv::Point2f& start) {
-      auto found = align_patch(from.levels().front(), to.levels().front(), points[i], start, own);
+      auto found = align_patch(from.full(), to.full(), points[i], start, own);
       if (found && (!best || found->residual < best->residual)) best = std::move(found);
     };
     if (result.tracked[i] != 0) align_from(result.points[i]);
@@ -124,6 +124,7 @@ ImagePyramid::ImagePyramid(const cv::Mat& gray, const KltOptions& options) {
   cv::buildOpticalFlowPyramid(smooth, levels_, cv::Size(options.window_px, options.window_px),
                               options.pyramid_levels, true, cv::BORDER_REFLECT_101,
                               cv::BORDER_CONSTANT, false);
+  smooth.convertTo(full_, CV_32F);
 }
 
 KltResult track_points(const ImagePyramid& from, const ImagePyramid& to,

@@ -34,10 +34,13 @@ class ImagePyramid {
 
   /// Picture, gradients, picture, ... as OpenCV wants them.
   [[nodiscard]] const std::vector<cv::Mat>& levels() const { return levels_; }
+  /// The full picture, CV_32FC1.
+  [[nodiscard]] const cv::Mat& full() const { return full_; }
   [[nodiscard]] cv::Size size() const { return levels_.front().size(); }
 
  private:
   std::vector<cv::Mat> levels_;
+  cv::Mat full_;
 };
 
 /// One entry per point; where `tracked` is 0 the others mean nothing.

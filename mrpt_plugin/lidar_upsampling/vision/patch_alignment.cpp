@@ -4,6 +4,7 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -42,10 +43,6 @@ bool inside(const cv::Mat& image, float x, float y) {
          y < static_cast<float>(image.rows - 1);
 }
 
-const std::uint8_t* pixel_at(const cv::Mat& image, int left, int top) {
-  return image.data + static_cast<std::size_t>(top) * image.step[0] + left;
-}
-
 /// A square of the picture whose pixels all lie alike between the picture's own.
 /// @param out rows of `width` values.
 void cut_out(const cv::Mat& image, float x, float y, int width, float* out) {
@@ -53,7 +50,7 @@ void cut_out(const cv::Mat& image, float x, float y, int width, float* out) {
   const float fx = x - static_cast<float>(left), fy = y - static_cast<float>(top);
   std::array<float, kWindow + 3> upper, lower;
   const auto read = [&](int v, std::array<float, kWindow + 3>& row) {
-    const std::uint8_t* from = pixel_at(image, left, top + v);
+    const float* from = image.ptr<float>(top + v) + left;
     for (int u = 0; u <= width; ++u) row[u] = from[u];
     for (int u = 0; u < width; ++u) row[u] += fx * (row[u + 1] - row[u]);
   };
@@ -96,6 +93,45 @@ bool make_template(const cv::Mat& image, const cv::Point2f& point, const std::ve
   return true;
 }
 
+/// A row of a deformed patch, in loops over whole vectors.
+class WarpedRow {
+ public:
+  /// @param x, y of its middle. @param by_x, by_y from pixel to pixel.
+  WarpedRow(float x, float y, float by_x, float by_y) {
+    for (int u = 0; u < kWidth; ++u) {
+      const auto from_middle = static_cast<float>(u - kHalf);
+      const float px = x + by_x * from_middle, py = y + by_y * from_middle;
+      left_[u] = static_cast<int>(px);
+      top_[u] = static_cast<int>(py);
+      fx_[u] = px - static_cast<float>(left_[u]);
+      fy_[u] = py - static_cast<float>(top_[u]);
+    }
+  }
+
+  void sample(const float* pixels, int step, float* out) const {
+    Row above{}, above_right{}, below{}, below_right{}, mixed;
+    for (int u = 0; u < kWindow; ++u) {
+      const float* const upper = pixels + (top_[u] * step + left_[u]);
+      above[u] = upper[0];
+      above_right[u] = upper[1];
+      below[u] = upper[step];
+      below_right[u] = upper[step + 1];
+    }
+    for (int u = 0; u < kWidth; ++u) {
+      const float at_left = above[u] + fy_[u] * (below[u] - above[u]);
+      const float at_right = above_right[u] + fy_[u] * (below_right[u] - above_right[u]);
+      mixed[u] = at_left + fx_[u] * (at_right - at_left);
+    }
+    std::copy_n(mixed.begin(), kWindow, out);
+  }
+
+ private:
+  static constexpr int kWidth = (kWindow + 3) / 4 * 4;  // vectors of four
+  using Row = std::array<float, kWidth>;
+  std::array<int, kWidth> left_, top_;
+  Row fx_, fy_;
+};
+
 /// The patch of the second picture, deformed to the template's; false if it leaves the picture.
 bool warp(const cv::Mat& image, const cv::Point2f& guess, const Parameters& p, Pixels& warped) {
   const float x0 = guess.x + p[0];
@@ -109,26 +145,12 @@ bool warp(const cv::Mat& image, const cv::Point2f& guess, const Parameters& p, P
     cut_out(image, x0 - reach, y0 - reach, kWindow, warped.data());
     return true;
   }
-  const std::uint8_t* const pixels = image.data;
-  const auto step = static_cast<std::ptrdiff_t>(image.step[0]);
-  int i = 0;
+  const float* const pixels = image.ptr<float>();
+  const auto step = static_cast<int>(image.step1());
   for (int v = -kHalf; v <= kHalf; ++v) {
     const auto y = static_cast<float>(v);
-    const float row_x = x0 + p[3] * y, row_y = y0 + y + p[5] * y;
-    for (int u = -kHalf; u <= kHalf; ++u, ++i) {
-      const float px = row_x + (1 + p[2]) * static_cast<float>(u);
-      const float py = row_y + p[4] * static_cast<float>(u);
-      const int left = static_cast<int>(px), top = static_cast<int>(py);
-      const float fx = px - static_cast<float>(left), fy = py - static_cast<float>(top);
-      const std::uint8_t* upper = pixels + top * step + left;
-      const std::uint8_t* lower = upper + step;
-      const int above = upper[0], below = lower[0];
-      const float at_left = static_cast<float>(above) + fy * static_cast<float>(below - above);
-      const int above_right = upper[1], below_right = lower[1];
-      const float at_right =
-          static_cast<float>(above_right) + fy * static_cast<float>(below_right - above_right);
-      warped[i] = at_left + fx * (at_right - at_left);
-    }
+    WarpedRow row(x0 + p[3] * y, y0 + y + p[5] * y, 1 + p[2], p[4]);
+    row.sample(pixels, step, &warped[(v + kHalf) * kWindow]);
   }
   return true;
 }

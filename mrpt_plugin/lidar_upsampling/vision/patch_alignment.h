@@ -29,7 +29,7 @@ struct Alignment {
 /// a change of gain and bias (Lucas-Kanade as in Baker & Matthews, IJCV 2004, the extra freedom
 /// held by Gaussian priors): a patch that grows or turns, as on a vehicle coming nearer, pulls a
 /// mere shift aside.
-/// @param from, to CV_8UC1 pictures.
+/// @param from, to CV_32FC1 pictures, gray levels.
 /// @param guess where the point may be on `to`, within a pixel or two.
 /// @param own of each pixel of the patch on `from`, row by row, 1 or 0: what is not its own is not
 /// compared; empty: all of it is.
