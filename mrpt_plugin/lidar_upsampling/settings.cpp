@@ -21,8 +21,9 @@ void list_main(Config& c, SettingList& v) {
   v.word("carrier", c.carrier, {"auto", "3drangescan", "pointcloud", "same"},
          "MRPT class of the virtual scans; auto: the one that this MRPT's maps and viewers handle "
          "best");
-  v.choice_of("compression", c.compression, {"none", "fast", "small"},
-              "of the output, which any MRPT reads; small: 6 % smaller, for five times the work");
+  v.choice_of(
+      "compression", c.compression, {"none", "fast", "small"},
+      "of the output, which any MRPT reads; small: 6 % smaller than fast, for five times the work");
   v.former("0", "none");
   for (const char* level : {"1", "2", "3"}) v.former(level, "fast");
   for (const char* level : {"4", "5", "6", "7", "8", "9"}) v.former(level, "small");

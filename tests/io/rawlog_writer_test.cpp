@@ -114,18 +114,20 @@ class FileSizeLimit {
 TEST(RawlogWriter, a_full_disk_is_an_error_and_leaves_nothing) {
   const TestFolder folder;
   const auto picture = colour_picture();
-  const auto write_pictures = [&](int count) {
-    RawlogWriter writer(folder / "a.rawlog", false, Compression::none);
+  const auto write_pictures = [&](int count, Compression compression) {
+    RawlogWriter writer(folder / "a.rawlog", false, compression);
     for (int i = 0; i < count; ++i) writer.write(*picture);
     writer.commit();
   };
   {
-    const FileSizeLimit limit(3000);
-    EXPECT_THROW(write_pictures(1), std::runtime_error);  // noticed on closing: all fits the buffer
-    EXPECT_THROW(write_pictures(1000), std::runtime_error);
+    const FileSizeLimit limit(1000);
+    // One is noticed on closing: all fits the buffer.
+    EXPECT_THROW(write_pictures(1, Compression::none), std::runtime_error);
+    for (const auto compression : {Compression::none, Compression::fast, Compression::small})
+      EXPECT_THROW(write_pictures(5000, compression), std::runtime_error);
   }
   EXPECT_EQ(num_files(folder.path()), 0U);
-  EXPECT_NO_THROW(write_pictures(1));
+  EXPECT_NO_THROW(write_pictures(1, Compression::none));
 }
 
 }  // namespace

@@ -67,6 +67,13 @@ TEST(Config, values_are_read) {
   EXPECT_FALSE(config.object_tracks.static_test);
 }
 
+TEST(Config, gzip_levels_of_former_files_still_mean_something) {
+  EXPECT_EQ(loaded("[lidar_upsampling]\ncompression = 0\n").compression, Compression::none);
+  EXPECT_EQ(loaded("[lidar_upsampling]\ncompression = 1\n").compression, Compression::fast);
+  EXPECT_EQ(loaded("[lidar_upsampling]\ncompression = 9\n").compression, Compression::small);
+  EXPECT_EQ(loaded("[lidar_upsampling]\ncompression = small\n").compression, Compression::small);
+}
+
 TEST(Config, an_unknown_key_is_named_with_those_there_are) {
   const std::string error = error_of("[klt]\nwindow = 21\n");
   EXPECT_NE(error.find("[klt] window"), std::string::npos) << error;

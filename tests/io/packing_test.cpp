@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the lidar_upsampling authors
+#include <gtest/gtest.h>
+#include <mrpt/io/CFileGZInputStream.h>
+
+#include <random>
+
+#include "lidar_upsampling/io/gzip_reader.h"
+#include "lidar_upsampling/io/gzip_writer.h"
+#include "small_logs.h"
+#include "test_folder.h"
+
+namespace lidar_upsampling {
+namespace {
+
+constexpr std::size_t kMember = 1U << 20U;
+
+/// Half of it repeats itself, half is noise, which cannot be packed.
+Bytes some_bytes(std::size_t size, unsigned seed = 1) {
+  std::mt19937 random(seed);
+  Bytes bytes(size);
+  for (std::size_t i = 0; i < size; ++i)
+    bytes[i] = static_cast<std::uint8_t>(i < size / 2 ? i % 97 : random());
+  return bytes;
+}
+
+void write_file(const std::string& path, Compression compression, const std::vector<Bytes>& parts) {
+  GzipWriter writer(path, compression);
+  for (const Bytes& part : parts) writer.write(part);
+  writer.close();
+}
+
+Bytes joined(const std::vector<Bytes>& parts) {
+  Bytes all;
+  for (const Bytes& part : parts) all.insert(all.end(), part.begin(), part.end());
+  return all;
+}
+
+Bytes read_as_mrpt_does(const std::string& path, std::size_t size) {
+  mrpt::io::CFileGZInputStream stream(path);
+  Bytes bytes(size + 1);
+  bytes.resize(stream.Read(bytes.data(), bytes.size()));
+  return bytes;
+}
+
+class Packing : public ::testing::TestWithParam<Compression> {
+ protected:
+  TestFolder folder_;
+};
+
+TEST_P(Packing, what_is_written_is_read_again_by_us_and_by_mrpt) {
+  const std::vector<Bytes> parts{some_bytes(10), some_bytes(3 * kMember), {},
+                                 some_bytes(1),  some_bytes(kMember),     some_bytes(70000)};
+  write_file(folder_ / "a", GetParam(), parts);
+  const Bytes all = joined(parts);
+  EXPECT_EQ(uncompressed(folder_ / "a"), all);
+  EXPECT_EQ(read_as_mrpt_does(folder_ / "a", all.size()), all);
+}
+
+TEST_P(Packing, the_same_writes_make_the_same_file) {
+  const std::vector<Bytes> parts{some_bytes(2 * kMember), some_bytes(5000)};
+  write_file(folder_ / "a", GetParam(), parts);
+  write_file(folder_ / "b", GetParam(), parts);
+  EXPECT_EQ(file_bytes(folder_ / "a"), file_bytes(folder_ / "b"));
+}
+
+INSTANTIATE_TEST_SUITE_P(All, Packing,
+                         ::testing::Values(Compression::none, Compression::fast,
+                                           Compression::small));
+
+/// Two members, and how long the first is.
+struct TwoMembers {
+  TwoMembers() {
+    const TestFolder folder;
+    write_file(folder / "first", Compression::fast, {first});
+    write_file(folder / "second", Compression::fast, {second});
+    size_of_first = file_bytes(folder / "first").size();
+    packed = joined({file_bytes(folder / "first"), file_bytes(folder / "second")});
+  }
+  Bytes first = some_bytes(300000, 2), second = some_bytes(500000, 3), packed;
+  std::size_t size_of_first = 0;
+};
+
+Bytes read_to_the_end(RecordingGzipReader& reader) {
+  Bytes block(100000);
+  while (reader.Read(block.data(), block.size()) > 0) {
+  }
+  return reader.take_record();
+}
+
+TEST(Unpacking, all_good_bytes_before_a_defect_are_given) {
+  const TestFolder folder;
+  TwoMembers file;
+  file.packed[file.size_of_first + 200000] ^= 0x40U;
+  write_bytes(folder / "a", file.packed);
+  RecordingGzipReader reader(folder / "a");
+  EXPECT_FALSE(reader.defect()) << "not before the good bytes are read";
+  const Bytes got = read_to_the_end(reader);
+  ASSERT_TRUE(reader.defect());
+  EXPECT_NE(reader.defect()->find("damaged"), std::string::npos) << *reader.defect();
+  ASSERT_GT(got.size(), file.first.size());
+  EXPECT_TRUE(std::equal(file.first.begin(), file.first.end(), got.begin()));
+}
+
+TEST(Unpacking, a_cut_within_a_member_is_told_and_costs_only_what_is_behind_it) {
+  const TestFolder folder;
+  TwoMembers file;
+  file.packed.resize(file.size_of_first + 100);
+  write_bytes(folder / "a", file.packed);
+  RecordingGzipReader reader(folder / "a");
+  EXPECT_GE(read_to_the_end(reader).size(), file.first.size());
+  ASSERT_TRUE(reader.defect());
+  EXPECT_NE(reader.defect()->find("cut off"), std::string::npos) << *reader.defect();
+}
+
+TEST(Unpacking, what_follows_the_last_member_is_left_out) {
+  const TestFolder folder;
+  const TwoMembers file;
+  for (const Bytes& more : {Bytes(1, 0), Bytes(4096, 0), Bytes{0x1f}, Bytes{'e', 'n', 'd'}}) {
+    write_bytes(folder / "a", joined({file.packed, more}));
+    RecordingGzipReader reader(folder / "a");
+    EXPECT_EQ(read_to_the_end(reader), joined({file.first, file.second})) << more.size();
+    EXPECT_FALSE(reader.defect());
+  }
+}
+
+TEST(Unpacking, a_reader_that_is_left_early_does_not_wait) {
+  const TestFolder folder;
+  write_file(folder / "a", Compression::fast, {some_bytes(20 * kMember)});
+  RecordingGzipReader reader(folder / "a");
+  std::uint8_t one = 0;
+  EXPECT_EQ(reader.Read(&one, 1), 1U);
+}
+
+TEST(GzipWriter, keeps_what_is_written_at_once_in_one_member) {
+  const TestFolder folder;
+  const Bytes part = some_bytes(kMember + 1);
+  write_file(folder / "one", Compression::fast, {part});
+  write_file(folder / "two", Compression::fast, {part, part});
+  const Bytes one = file_bytes(folder / "one");
+  EXPECT_EQ(file_bytes(folder / "two"), joined({one, one}));
+}
+
+}  // namespace
+}  // namespace lidar_upsampling
