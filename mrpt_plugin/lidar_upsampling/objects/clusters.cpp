@@ -54,7 +54,7 @@ std::vector<Links> find_links(const PointIndex& index, const std::vector<float>&
   tbb::parallel_for(tbb::blocked_range<int>(0, static_cast<int>(sq_reach.size()), 512),
                     [&](const auto& part) {
                       Links& noted = links.local();
-                      std::vector<std::pair<int, float>> around;
+                      std::vector<PointIndex::Neighbor> around;
                       for (int i = part.begin(); i < part.end(); ++i) {
                         const float mine = sq_reach[i];
                         index.within(index.points()[i], mine, around);

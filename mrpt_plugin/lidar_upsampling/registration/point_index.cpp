@@ -2,13 +2,15 @@
 // Copyright (c) 2026, the lidar_upsampling authors
 #include "lidar_upsampling/registration/point_index.h"
 
+#include <iterator>
 #include <nanoflann.hpp>
 
 namespace lidar_upsampling {
 
 namespace {
 
-// nanoflann's own set for any number of neighbours takes a tenth more time for one.
+// nanoflann asks these where to look; its own ones allocate for each query, or take a tenth more
+// time for one neighbour.
 class NearestOne {
  public:
   using DistanceType = float;
@@ -26,6 +28,56 @@ class NearestOne {
 
  private:
   PointIndex::Neighbor nearest_;
+};
+
+class NearestFew {
+ public:
+  using DistanceType = float;
+
+  NearestFew(std::size_t count, std::vector<PointIndex::Neighbor>& found)
+      : count_(count), found_(found) {
+    found_.clear();
+  }
+
+  [[nodiscard]] std::size_t size() const { return found_.size(); }
+  [[nodiscard]] bool full() const { return found_.size() == count_; }
+  [[nodiscard]] float worstDist() const {
+    return full() ? found_.back().sq_distance : std::numeric_limits<float>::max();
+  }
+  bool addPoint(float sq_distance, std::uint32_t index) {
+    if (!(sq_distance < worstDist())) return true;
+    if (full()) found_.pop_back();
+    auto place = found_.end();
+    while (place != found_.begin() && std::prev(place)->sq_distance > sq_distance) --place;
+    found_.insert(place, {static_cast<int>(index), sq_distance});
+    return true;
+  }
+
+ private:
+  std::size_t count_;
+  std::vector<PointIndex::Neighbor>& found_;
+};
+
+class AllWithin {
+ public:
+  using DistanceType = float;
+
+  AllWithin(float max_sq_distance, std::vector<PointIndex::Neighbor>& found)
+      : max_sq_distance_(max_sq_distance), found_(found) {
+    found_.clear();
+  }
+
+  [[nodiscard]] std::size_t size() const { return found_.size(); }
+  [[nodiscard]] bool full() const { return true; }
+  [[nodiscard]] float worstDist() const { return max_sq_distance_; }
+  bool addPoint(float sq_distance, std::uint32_t index) {
+    if (sq_distance < max_sq_distance_) found_.push_back({static_cast<int>(index), sq_distance});
+    return true;
+  }
+
+ private:
+  float max_sq_distance_;
+  std::vector<PointIndex::Neighbor>& found_;
 };
 
 }  // namespace
@@ -67,19 +119,13 @@ PointIndex::Neighbor PointIndex::nearest(const Eigen::Vector3f& query,
 
 void PointIndex::nearest(const Eigen::Vector3f& query, int k,
                          std::vector<Neighbor>& neighbors) const {
-  std::vector<std::uint32_t> indices(k);
-  std::vector<float> sq_distances(k);
-  const std::size_t found =
-      tree_->index.knnSearch(query.data(), k, indices.data(), sq_distances.data());
-  neighbors.resize(found);
-  for (std::size_t i = 0; i < found; ++i) {
-    neighbors[i] = {static_cast<int>(indices[i]), sq_distances[i]};
-  }
+  NearestFew found(static_cast<std::size_t>(k), neighbors);
+  tree_->index.findNeighbors(found, query.data(), {});
 }
 
 void PointIndex::within(const Eigen::Vector3f& query, float max_sq_distance,
-                        std::vector<std::pair<int, float>>& neighbors) const {
-  nanoflann::RadiusResultSet<float, int> found(max_sq_distance, neighbors);
+                        std::vector<Neighbor>& neighbors) const {
+  AllWithin found(max_sq_distance, neighbors);
   tree_->index.findNeighbors(found, query.data(), {});
 }
 

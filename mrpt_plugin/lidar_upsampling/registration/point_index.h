@@ -30,9 +30,9 @@ class PointIndex {
   /// Fills `neighbors` with the k nearest (fewer if there are not so many), nearest first.
   void nearest(const Eigen::Vector3f& query, int k, std::vector<Neighbor>& neighbors) const;
 
-  /// Fills `neighbors` with all that lie nearer, in no certain order: index and squared distance.
+  /// Fills `neighbors` with all that lie nearer, in no certain order.
   void within(const Eigen::Vector3f& query, float max_sq_distance,
-              std::vector<std::pair<int, float>>& neighbors) const;
+              std::vector<Neighbor>& neighbors) const;
 
  private:
   struct Tree;

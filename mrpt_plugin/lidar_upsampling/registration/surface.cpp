@@ -12,16 +12,17 @@ namespace lidar_upsampling {
 
 namespace {
 
-constexpr int kMoreWhereDense = 4;
+constexpr float kSqFurther = 4;  // where points are dense: as many times the area
 
+/// By its neighbours, the more of them the denser they lie.
 Eigen::Vector3f normal_at(const PointIndex& index, const Eigen::Vector3f& point,
                           const NormalOptions& options) {
-  std::vector<PointIndex::Neighbor> neighbors;
+  thread_local std::vector<PointIndex::Neighbor> neighbors;  // made once
   index.nearest(point, options.num_neighbors, neighbors);
   // So near, it is the noise of their ranges that would be told.
   const auto sq_noisy = static_cast<float>(options.min_radius_m * options.min_radius_m);
-  if (!neighbors.empty() && neighbors.back().sq_distance < sq_noisy)
-    index.nearest(point, kMoreWhereDense * options.num_neighbors, neighbors);
+  const float sq_farthest = neighbors.empty() ? 0 : neighbors.back().sq_distance;
+  if (sq_farthest < sq_noisy) index.within(point, kSqFurther * sq_farthest, neighbors);
   const auto sq_radius = static_cast<float>(options.max_radius_m * options.max_radius_m);
   Eigen::Vector3f sum = Eigen::Vector3f::Zero();
   Eigen::Matrix3f products = Eigen::Matrix3f::Zero();

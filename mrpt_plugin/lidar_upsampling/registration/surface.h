@@ -15,7 +15,7 @@ namespace lidar_upsampling {
 
 struct NormalOptions {
   int num_neighbors = 10;
-  double min_radius_m = 0.1;   ///< where all of these lie within, four times as many are asked
+  double min_radius_m = 0.1;   ///< where all of these lie within, those as far again are asked, too
   double max_radius_m = 2.0;   ///< neighbours further away do not count
   double max_flatness = 0.15;  ///< smallest over middle eigenvalue of the neighbours' scatter
   double min_width = 0.01;     ///< middle over largest eigenvalue: less is a line
