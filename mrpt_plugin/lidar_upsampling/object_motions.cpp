@@ -103,13 +103,6 @@ MotionAnswer answer_for(const ObjectTrack& track, const AllSights& sights,
   return estimate_motion(track, sights.image, question, sights.starts, config.object_tracks);
 }
 
-// Scans to come tell better whether it moves, and will be asked in their turn.
-void learn(ObjectTrack& track, const MotionAnswer& answer) {
-  if (!answer.is_seen) return;
-  track.latest = answer.state;
-  track.latest_log_odds = track.ahead ? track.log_odds : answer.log_odds;
-}
-
 }  // namespace
 
 std::vector<ObjectMotion> estimate_motions(const std::vector<ImageResult>& group,
@@ -127,7 +120,7 @@ std::vector<ObjectMotion> estimate_motions(const std::vector<ImageResult>& group
         shifted(track.stamp, dt),  newest.ego.T_to_from,   newest.ego.covariance, object.centroid,
         key.T_rest_lidar.linear(), newest.camera.model.fx, sights.num_followed};
     const MotionAnswer answer = answer_for(track, sights, question, config);
-    learn(track, answer);
+    note_answer(track, answer);
     ObjectMotion& motion = motions[i];
     motion = make_motion(answer, object, newest.ego.T_to_from, dt);
     motion.num_tracked = static_cast<int>(sights.image.observations.size());

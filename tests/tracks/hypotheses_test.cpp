@@ -134,6 +134,19 @@ TEST(Hypotheses, a_mover_goes_on_where_no_camera_sees_it_ever_less_certainly) {
   EXPECT_GT(later.moving.covariance(3, 3), 4 * soon.moving.covariance(3, 3));
 }
 
+TEST(Hypotheses, what_a_picture_tells_is_kept_and_what_scans_to_come_tell_is_not) {
+  ObjectTrack track = known_track(2, 1);
+  track.state.covariance(3, 3) = 4;
+  track.ahead = Ahead{track.state, predicted(track.state, shifted(kStart, 0.1), {}), 3};
+  const MotionAnswer answer =
+      estimate_motion(track, picture_of(Twist::Zero()), question_after(0.1), {}, {});
+  ASSERT_TRUE(answer.is_seen);
+  EXPECT_LT(answer.log_ratio, -0.5);
+  EXPECT_NEAR(answer.log_odds, std::max(-kMostLogOdds, 3 + answer.log_ratio), 1e-9);
+  note_answer(track, answer);
+  EXPECT_NEAR(track.latest_log_odds, std::max(-kMostLogOdds, 1 + answer.log_ratio), 1e-9);
+}
+
 TEST(Hypotheses, what_may_as_well_be_parked_stays_where_no_camera_sees_it) {
   EXPECT_FALSE(estimate_motion(known_track(10, 0), {}, question_after(0.1), {}, {}).moves);
 }

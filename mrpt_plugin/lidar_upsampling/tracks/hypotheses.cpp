@@ -220,7 +220,8 @@ void learn(const Heard& heard, const std::vector<Way>& ways, const MotionExpecte
       heard.moving[std::max_element(heard.right.begin(), heard.right.end()) - heard.right.begin()];
   mix(weights, told, answer.moving);
   mix(weights, states, answer.state);
-  answer.log_odds += heard.log_moving - heard.log_parked;
+  answer.log_ratio = heard.log_moving - heard.log_parked;
+  answer.log_odds += answer.log_ratio;
 }
 
 }  // namespace
@@ -273,6 +274,13 @@ MotionAnswer estimate_motion(const ObjectTrack& track, const ImageFactor& image,
                                      : answer.is_seen || answer.log_odds > 0;
   answer.log_odds = std::clamp(answer.log_odds, -kMostLogOdds, kMostLogOdds);
   return answer;
+}
+
+void note_answer(ObjectTrack& track, const MotionAnswer& answer) {
+  if (!answer.is_seen) return;
+  track.latest = answer.state;
+  track.latest_log_odds =
+      std::clamp(track.log_odds + answer.log_ratio, -kMostLogOdds, kMostLogOdds);
 }
 
 }  // namespace lidar_upsampling

@@ -24,7 +24,8 @@ struct MotionQuestion {
 struct MotionAnswer {
   bool moves = false;
   bool is_seen = false;  ///< whether the picture was heard
-  double log_odds = 0;   ///< of moving
+  double log_odds = 0;   ///< of moving, with all that is known
+  double log_ratio = 0;  ///< of moving, by the picture alone
   MotionFit moving;      ///< as expected, where the picture was not heard
   MotionFit parked;
   TrackState state;  ///< at the instant, if it moves; without what scans to come tell
@@ -43,5 +44,9 @@ struct MotionAnswer {
                                            const MotionQuestion& question,
                                            const std::vector<Twist>& starts,
                                            const TrackOptions& options);
+
+/// @brief What the picture tells is known from here on. What scans to come tell is not: they will
+/// be asked in their turn.
+void note_answer(ObjectTrack& track, const MotionAnswer& answer);
 
 }  // namespace lidar_upsampling

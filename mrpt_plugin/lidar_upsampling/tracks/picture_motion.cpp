@@ -37,6 +37,7 @@ MotionAnswer answer_of_picture(const ObjectTrack& track, const std::optional<Mot
   const double dt = seconds_between(track.stamp, question.instant);
   if (!fit || fit->mean.tail<3>().norm() > options.max_speed * dt) return answer;
   answer.is_seen = answer.moves = true;
+  answer.log_ratio = -track.log_odds;  // where it goes next is anybody's guess
   answer.moving = *fit;
   // Where to look for it on the next picture.
   answer.state.stamp = question.instant;
