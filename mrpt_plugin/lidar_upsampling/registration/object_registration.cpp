@@ -77,9 +77,6 @@ Ambiguity ambiguity_of(const ObjectFit& problem, const Fitted& best) {
 
 using Points = std::vector<Eigen::Vector3f>;
 
-// So many points tell which start leads home; all that are asked for, where exactly that is.
-constexpr std::size_t kCoarse = 60;
-
 /// The best start on a half-metre grid around the ego-motion.
 Fitted search_start(const ObjectFit& problem) {
   constexpr double kCell = 0.5;
@@ -117,6 +114,7 @@ ObjectRegistrationOptions options_between_scans() {
   ObjectRegistrationOptions options;
   options.min_points = 10;
   options.max_points = 120;
+  options.choosing_points = 60;
   options.search_m = 0;
   options.max_shift_m = 0.6;
   options.weigh_as = 10;
@@ -143,7 +141,8 @@ ObjectRegistration register_object(const Points& points_object, const Surface& t
     return result;
   }
   const Points points = evenly_thinned(points_object, static_cast<std::size_t>(options.max_points));
-  const Points few = evenly_thinned(points, kCoarse);
+  const int choosing = options.choosing_points > 0 ? options.choosing_points : options.max_points;
+  const Points few = evenly_thinned(points, static_cast<std::size_t>(choosing));
   const ObjectFit problem{points, target, guesses.front(), options, mean_of(points), clues};
   const ObjectFit coarse{few, target, guesses.front(), options, mean_of(few), clues};
   Fitted best = best_fit(coarse, guesses);

@@ -12,7 +12,8 @@ namespace lidar_upsampling {
 
 struct ObjectRegistrationOptions {
   int min_points = 30;
-  int max_points = 400;  ///< of the object, evenly thinned
+  int max_points = 400;     ///< of the object, evenly thinned
+  int choosing_points = 0;  ///< of these, that tell which start leads home; 0: all
   double max_correspondence_m = 1.0;
   double kernel_m = 0.08;         ///< Geman-McClure scale at the end
   double point_weight = 0.05;     ///< of the distance along the surface; 1: point to point
