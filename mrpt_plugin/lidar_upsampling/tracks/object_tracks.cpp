@@ -39,10 +39,6 @@ double heading_of(const TrackedScan& scan) {
   return std::atan2(T_rest_vehicle(1, 0), T_rest_vehicle(0, 0));
 }
 
-std::shared_ptr<const Surface> surface_of(const ScanObject& object, const LidarScan& scan) {
-  return std::make_shared<const Surface>(points_at(scan, object.points));
-}
-
 void see_anew(ObjectTrack& track, const ScanObject& object, std::shared_ptr<const Surface> surface,
               const TrackedScan& scan) {
   track.ahead.reset();
@@ -76,7 +72,6 @@ ObjectTrack new_track(const ScanObject& object, const TrackedScan& scan,
                             {whole.state, along});
   track.state = track.beginnings.front().from;
   track.log_odds = log_odds_of(moves);
-  see_anew(track, object, surface_of(object, scan.scan), scan);
   return track;
 }
 
@@ -104,21 +99,23 @@ std::vector<int> take_up_scan(TrackStore& store, std::vector<ScanObject>& object
   std::vector<int> track_of = associate(tracks, objects, scan, options);
   join_pieces(store, scan, options, objects, track_of);
   const std::size_t num_known = tracks.size();
+  std::vector<std::shared_ptr<const Surface>> surfaces(objects.size());
   tbb::parallel_for(std::size_t{0}, objects.size(), [&](std::size_t i) {
+    surfaces[i] = std::make_shared<const Surface>(points_at(scan.scan, objects[i].points));
     if (track_of[i] < 0) return;
     ObjectTrack& track = tracks[track_of[i]];
-    auto surface = surface_of(objects[i], scan.scan);
-    const ScanLesson lesson = learn_from_scans(track, objects[i], *surface, scan, options);
+    const ScanLesson lesson = learn_from_scans(track, objects[i], *surfaces[i], scan, options);
     track.passage = Passage{lesson.from, lesson.state, lesson.surprises};
     track.state = from_here(lesson.state);
     track.beginnings.clear();
     track.log_odds = lesson.log_odds;
-    see_anew(track, objects[i], std::move(surface), scan);
+    see_anew(track, objects[i], surfaces[i], scan);
   });
   for (std::size_t i = 0; i < objects.size(); ++i) {
     if (track_of[i] >= 0) continue;
     track_of[i] = static_cast<int>(tracks.size());
     ObjectTrack track = new_track(objects[i], scan, tracks, num_known, options);
+    see_anew(track, objects[i], surfaces[i], scan);
     track.id = store.next_id++;
     tracks.push_back(std::move(track));
   }
