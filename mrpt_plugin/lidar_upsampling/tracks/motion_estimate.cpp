@@ -21,9 +21,12 @@ Eigen::Matrix3d rotation_of(const Eigen::Vector3d& w) {
   return Eigen::AngleAxisd(angle, w / angle).toRotationMatrix();
 }
 
+/// Where a moved point is seen, against where it was found.
 struct Residual {
   Eigen::Vector2d px;
-  Eigen::Matrix<double, 2, 6> by_motion;
+  Eigen::Vector3d arm;  ///< from the centroid, turned
+  Eigen::Vector2d normalised;
+  double depth;
 };
 
 /// A motion with what every observation needs of it.
@@ -34,20 +37,24 @@ struct Moved {
 };
 
 std::optional<Residual> residual_of(const Observation& observation, const ImageView& view,
-                                    const Moved& moved, bool with_derivative) {
+                                    const Moved& moved) {
   const Eigen::Vector3d arm = moved.R * (observation.point_in_source - moved.centroid);
   const Eigen::Vector3d at =
       view.T_camera_lidar_k * (arm + moved.centroid + view.share * moved.d + view.offset);
   if (at.z() * std::abs(at.z()) < kSqNearest_m) return std::nullopt;
   const Eigen::Vector2d normalised = at.head<2>() / at.z();
-  Residual result;
-  result.px = observation.pixel_by_normalised * (normalised - observation.normalised);
-  if (!with_derivative) return result;
+  return Residual{observation.pixel_by_normalised * (normalised - observation.normalised), arm,
+                  normalised, at.z()};
+}
+
+Eigen::Matrix<double, 2, 6> by_motion(const Residual& residual, const Observation& observation,
+                                      const ImageView& view) {
   Eigen::Matrix<double, 2, 3> by_point;
-  by_point << 1, 0, -normalised.x(), 0, 1, -normalised.y();
-  by_point = observation.pixel_by_normalised * by_point * view.T_camera_lidar_k.linear() / at.z();
-  result.by_motion.leftCols<3>() = -by_point * skew(arm);
-  result.by_motion.rightCols<3>() = view.share * by_point;
+  by_point << 1, 0, -residual.normalised.x(), 0, 1, -residual.normalised.y();
+  by_point =
+      observation.pixel_by_normalised * by_point * view.T_camera_lidar_k.linear() / residual.depth;
+  Eigen::Matrix<double, 2, 6> result;
+  result << -by_point * skew(residual.arm), view.share * by_point;
   return result;
 }
 
@@ -68,7 +75,7 @@ double picture_cost(const Problem& problem, const Moved& moved) {
   double sum = 0;
   for (std::size_t i = 0; i < problem.image.observations.size(); ++i) {
     const auto at = residual_of(problem.image.observations[i],
-                                problem.image.views[problem.image.view_of[i]], moved, false);
+                                problem.image.views[problem.image.view_of[i]], moved);
     sum += std::log1p(at ? at->px.squaredNorm() / sq_scale : kFarOff);
   }
   return (nu + 2) * sum / problem.noise.points_per_observation;
@@ -92,13 +99,15 @@ NormalEquations linearised(const Problem& problem, const Twist& motion) {
   const Moved moved{rotation_of(motion.head<3>()), motion.tail<3>(), problem.centroid};
   NormalEquations result{problem.information, problem.information * (problem.prior.mean - motion)};
   for (std::size_t i = 0; i < problem.image.observations.size(); ++i) {
-    const auto at = residual_of(problem.image.observations[i],
-                                problem.image.views[problem.image.view_of[i]], moved, true);
+    const Observation& observation = problem.image.observations[i];
+    const ImageView& view = problem.image.views[problem.image.view_of[i]];
+    const auto at = residual_of(observation, view, moved);
     if (!at) continue;
+    const Eigen::Matrix<double, 2, 6> J = by_motion(*at, observation, view);
     const double weight =
         (nu + 2) / (nu * sq_sigma + at->px.squaredNorm()) / problem.noise.points_per_observation;
-    result.H.noalias() += weight * at->by_motion.transpose() * at->by_motion;
-    result.b.noalias() -= weight * at->by_motion.transpose() * at->px;
+    result.H.noalias() += weight * J.transpose() * J;
+    result.b.noalias() -= weight * J.transpose() * at->px;
   }
   return result;
 }
@@ -128,7 +137,7 @@ void count_inliers(const Problem& problem, MotionFit& fit) {
   double sum = 0;
   for (std::size_t i = 0; i < problem.image.observations.size(); ++i) {
     const auto at = residual_of(problem.image.observations[i],
-                                problem.image.views[problem.image.view_of[i]], moved, false);
+                                problem.image.views[problem.image.view_of[i]], moved);
     if (!at || at->px.norm() > 3 * problem.noise.sigma_px) continue;
     ++fit.num_inliers;
     sum += at->px.squaredNorm();
@@ -173,8 +182,7 @@ double measured_sigma_px(const ImageFactor& image, const Eigen::Vector3d& centro
   for (int round = 0; round < 5; ++round) {
     double sum = 0;
     for (std::size_t i = 0; i < image.observations.size(); ++i) {
-      const auto at =
-          residual_of(image.observations[i], image.views[image.view_of[i]], moved, false);
+      const auto at = residual_of(image.observations[i], image.views[image.view_of[i]], moved);
       const double sq = at ? at->px.squaredNorm() : 1e6;
       sum += 0.5 * (nu + 2) / (nu + sq / sq_sigma) * sq;
     }
