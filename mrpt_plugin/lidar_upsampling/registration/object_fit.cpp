@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lidar_upsampling/registration/correspondence.h"
 #include "lidar_upsampling/se3.h"
 
 namespace lidar_upsampling {
@@ -19,17 +20,6 @@ bool are_enough(const ObjectFit& fit, int visible, int all) {
 
 constexpr double kResidualSigma =
     0.03;  // m, of a good match: what the soft constraints weigh against
-
-/// @param last of the step before, or -1: no match is farther than it, which need not be searched.
-PointIndex::Neighbor match_of(const ObjectFit& problem, const Eigen::Vector3f& point, int last) {
-  const auto reach = static_cast<float>(problem.options.max_correspondence_m);
-  float sq_bound = reach * reach;
-  if (last >= 0) {
-    const float sq_last = (problem.target.points()[last] - point).squaredNorm();
-    sq_bound = std::min(sq_bound, 1.001F * sq_last + 1e-6F);  // a thousandth more, for rounding
-  }
-  return problem.target.nearest(point, sq_bound);
-}
 
 /// Sums over matches: across the surface each counts fully, along it little.
 struct MatchSums {
@@ -52,11 +42,8 @@ struct MatchSums {
   }
 };
 
-/// @param match in and out, of the step before and of this one; -1: none.
 void add_match(const ObjectFit& problem, const Eigen::Vector3d& point, const Eigen::Vector3d& pivot,
-               double scale, int& match, MatchSums& sums) {
-  match = match_of(problem, point.cast<float>(), match).index;
-  if (match < 0) return;
+               double scale, int match, MatchSums& sums) {
   const Eigen::Vector3d error = point - problem.target.points()[match].cast<double>();
   const Eigen::Vector3d normal = problem.target.normal(match).cast<double>();
   const Eigen::Vector3d place = point - pivot;
@@ -181,14 +168,16 @@ double overlap_of(const ObjectFit& fit, const Pose& T_target_object) {
 Fitted converge(const ObjectFit& problem, const Pose& guess, double stop) {
   Pose T = guess;
   double scale = 4 * problem.options.kernel_m;
-  std::vector<int> matches(problem.points.size(), -1);
+  const auto reach = static_cast<float>(problem.options.max_correspondence_m);
+  std::vector<Correspondence> matches(problem.points.size());
   for (int i = 0; i < problem.options.max_iterations; ++i) {
     MatchSums sums;
     const Eigen::Vector3d pivot = T * problem.centroid;
     for (std::size_t j = 0; j < matches.size(); ++j) {
       const Eigen::Vector3d place = T * problem.points[j].cast<double>();
       if (sight_in(problem, place.cast<float>()) == Sight::hidden) continue;
-      add_match(problem, place, pivot, scale, matches[j], sums);
+      look_up(problem.target, place.cast<float>(), reach, matches[j]);
+      if (matches[j].index >= 0) add_match(problem, place, pivot, scale, matches[j].index, sums);
     }
     Matrix6d H = 1e-9 * Matrix6d::Identity();
     Twist b = Twist::Zero();

@@ -30,6 +30,30 @@ class NearestOne {
   PointIndex::Neighbor nearest_;
 };
 
+class NearestTwo {
+ public:
+  using DistanceType = float;
+
+  explicit NearestTwo(float max_sq_distance) : found_{{-1, max_sq_distance}, max_sq_distance} {}
+
+  [[nodiscard]] const PointIndex::Nearest& found() const { return found_; }
+  [[nodiscard]] std::size_t size() const { return found_.first.index < 0 ? 0 : 1; }
+  [[nodiscard]] bool full() const { return true; }
+  [[nodiscard]] float worstDist() const { return found_.sq_others; }
+  bool addPoint(float sq_distance, std::uint32_t index) {
+    if (sq_distance < found_.first.sq_distance) {
+      found_.sq_others = found_.first.sq_distance;
+      found_.first = {static_cast<int>(index), sq_distance};
+    } else if (sq_distance < found_.sq_others) {
+      found_.sq_others = sq_distance;
+    }
+    return true;
+  }
+
+ private:
+  PointIndex::Nearest found_;
+};
+
 class NearestFew {
  public:
   using DistanceType = float;
@@ -115,6 +139,13 @@ PointIndex::Neighbor PointIndex::nearest(const Eigen::Vector3f& query,
   NearestOne found(max_sq_distance);
   tree_->index.findNeighbors(found, query.data(), {});
   return found.nearest();
+}
+
+PointIndex::Nearest PointIndex::nearest_of_all(const Eigen::Vector3f& query,
+                                               float max_sq_distance) const {
+  NearestTwo found(max_sq_distance);
+  tree_->index.findNeighbors(found, query.data(), {});
+  return found.found();
 }
 
 void PointIndex::nearest(const Eigen::Vector3f& query, int k,

@@ -27,6 +27,13 @@ class PointIndex {
   [[nodiscard]] Neighbor nearest(const Eigen::Vector3f& query,
                                  float max_sq_distance = std::numeric_limits<float>::max()) const;
 
+  struct Nearest {
+    Neighbor first;
+    float sq_others = 0;  ///< no other point lies nearer, as far as was looked
+  };
+  /// The nearest, and how far all others are at least.
+  [[nodiscard]] Nearest nearest_of_all(const Eigen::Vector3f& query, float max_sq_distance) const;
+
   /// Fills `neighbors` with the k nearest (fewer if there are not so many), nearest first.
   void nearest(const Eigen::Vector3f& query, int k, std::vector<Neighbor>& neighbors) const;
 

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lidar_upsampling/registration/correspondence.h"
 #include "lidar_upsampling/registration/surface.h"
 #include "lidar_upsampling/registration/voxel_grid.h"
 
@@ -35,6 +36,7 @@ struct Match {
   Twist jacobian;
   double residual = 0;
   bool valid = false;
+  Correspondence nearest;
 };
 
 std::vector<Eigen::Vector3f> thinned(const std::vector<Eigen::Vector3f>& points) {
@@ -46,31 +48,26 @@ std::vector<Eigen::Vector3f> thinned(const std::vector<Eigen::Vector3f>& points)
   return group_by_voxel(kept, kVoxel_m).means;
 }
 
-Match match_point(const Eigen::Vector3f& point, const Surface& target) {
-  constexpr auto kReach = static_cast<float>(kMaxCorrespondence_m * kMaxCorrespondence_m);
-  Match match;
-  const auto nearest = target.nearest(point, kReach);
-  if (nearest.index < 0) {
-    return match;
-  }
-  const Eigen::Vector3d normal = target.normal(nearest.index).cast<double>();
-  if (normal.isZero()) {
-    return match;
-  }
+/// @param match in and out, of the iteration before and of this one.
+void match_point(const Eigen::Vector3f& point, const Surface& target, Match& match) {
+  constexpr auto kReach_m = static_cast<float>(kMaxCorrespondence_m);
+  match.valid = false;
+  look_up(target, point, kReach_m, match.nearest);
+  if (match.nearest.index < 0) return;
+  const Eigen::Vector3d normal = target.normal(match.nearest.index).cast<double>();
+  if (normal.isZero()) return;
   const Eigen::Vector3d p = point.cast<double>();
-  match.residual = normal.dot(p - target.points()[nearest.index].cast<double>());
+  match.residual = normal.dot(p - target.points()[match.nearest.index].cast<double>());
   match.jacobian << p.cross(normal), normal;
   match.valid = true;
-  return match;
 }
 
 void match_all(const std::vector<Eigen::Vector3f>& source, const Surface& target,
                const Pose& T_target_source, std::vector<Match>& matches) {
   const Eigen::Isometry3f T = T_target_source.cast<float>();
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, source.size(), 256), [&](const auto& range) {
-    for (std::size_t i = range.begin(); i < range.end(); ++i) {
-      matches[i] = match_point(T * source[i], target);
-    }
+    for (std::size_t i = range.begin(); i < range.end(); ++i)
+      match_point(T * source[i], target, matches[i]);
   });
 }
 

@@ -10,13 +10,13 @@
 #include <limits>
 #include <vector>
 
+#include "lidar_upsampling/azimuth.h"
 #include "lidar_upsampling/units.h"
 
 namespace lidar_upsampling {
 namespace {
 
 constexpr float kHighest = static_cast<float>(45 * kDegree);
-constexpr float kTurn = static_cast<float>(2 * M_PI);
 constexpr double kColumn_deg = 0.5;  // wider than any spinning LiDAR's step
 constexpr double kRoom = 1.2;        // so that no row lies between two rings
 constexpr float kMargin_m = 0.5F;    // surfaces are inclined, and objects have depth
@@ -75,13 +75,12 @@ SeenSpace::SeenSpace(const std::vector<Eigen::Vector3f>& points, double vertical
 }
 
 int SeenSpace::row_of(const Eigen::Vector3f& place) const {
-  const float elevation = std::atan2(place.z(), place.head<2>().norm());
+  const float elevation = elevation_of(place.head<2>().norm(), place.z());
   return std::abs(elevation) >= kHighest ? -1 : static_cast<int>((elevation + kHighest) * per_row_);
 }
 
 int SeenSpace::column_of(const Eigen::Vector3f& place) const {
-  const float azimuth = std::atan2(place.y(), place.x()) + 0.5F * kTurn;
-  return std::min(columns_ - 1, static_cast<int>(azimuth * per_column_));
+  return std::min(columns_ - 1, static_cast<int>(azimuth_of(place.x(), place.y()) * per_column_));
 }
 
 Sight SeenSpace::at(const Eigen::Vector3f& place) const {

@@ -38,6 +38,11 @@ class Surface {
       float max_sq_distance = std::numeric_limits<float>::max()) const {
     return index_.nearest(query, max_sq_distance);
   }
+  /// @param max_sq_distance as PointIndex has it.
+  [[nodiscard]] PointIndex::Nearest nearest_of_all(const Eigen::Vector3f& query,
+                                                   float max_sq_distance) const {
+    return index_.nearest_of_all(query, max_sq_distance);
+  }
   /// Unit length; zero where the neighbours form no plane.
   [[nodiscard]] Eigen::Vector3f normal(int point) const;
   /// m, to the nearest other point that lies beside rather than above or below, as surfaces slide

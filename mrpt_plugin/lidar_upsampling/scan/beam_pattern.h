@@ -8,24 +8,10 @@
 #include <optional>
 #include <vector>
 
+#include "lidar_upsampling/azimuth.h"
 #include "lidar_upsampling/types.h"
 
 namespace lidar_upsampling {
-
-constexpr float kTurn = 2 * static_cast<float>(M_PI);
-
-/// @brief The azimuth of a place, in [0, 2 pi), to 1e-5: several times as fast as std::atan2.
-/// Abramowitz and Stegun, Handbook of Mathematical Functions, 4.4.49.
-[[nodiscard]] inline float azimuth_of(float x, float y) {
-  const float wide = std::abs(x), high = std::abs(y);
-  const float t = std::min(wide, high) / std::max(std::max(wide, high), 1e-30F), s = t * t;
-  float angle =
-      t * (0.9998660F + s * (-0.3302995F + s * (0.1801410F + s * (-0.0851330F + s * 0.0208351F))));
-  if (high > wide) angle = kTurn / 4 - angle;
-  if (x < 0) angle = kTurn / 2 - angle;
-  if (y < 0) angle = kTurn - angle;
-  return angle < kTurn ? angle : 0;
-}
 
 /// @brief The turn in equal columns, about two for each step of a row.
 struct Columns {

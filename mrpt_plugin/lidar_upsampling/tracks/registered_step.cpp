@@ -16,22 +16,23 @@ namespace {
 /// that comes out from behind another keeps one end.
 std::array<Eigen::Vector3d, 3> landmarks(const std::vector<Eigen::Vector3f>& points,
                                          const Pose& T_k) {
-  const Eigen::Vector3d mean = T_k * mean_of(points);
-  const Eigen::Vector2d side = Eigen::Vector2d(-mean.y(), mean.x()).normalized();
-  std::vector<std::pair<double, Eigen::Vector3d>> across;
-  for (const auto& point : points) {
-    const Eigen::Vector3d at = T_k * point.cast<double>();
-    across.emplace_back(side.dot(at.head<2>()), at);
-  }
-  const std::size_t share = 1 + points.size() / 10;
-  const auto by_side = [](const auto& a, const auto& b) { return a.first < b.first; };
-  std::array<Eigen::Vector3d, 3> result{mean, Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
-  std::sort(across.begin(), across.end(), by_side);
-  for (std::size_t i = 0; i < share; ++i) {
-    result[1] += across[i].second / static_cast<double>(share);
-    result[2] += across[across.size() - 1 - i].second / static_cast<double>(share);
-  }
-  return result;
+  const Eigen::Isometry3f T = T_k.cast<float>();
+  const Eigen::Vector3f mean = T * mean_of(points).cast<float>();
+  const Eigen::Vector2f side = Eigen::Vector2f(-mean.y(), mean.x()).normalized();
+  std::vector<std::pair<float, int>> across;
+  across.reserve(points.size());
+  for (const auto& point : points)
+    across.emplace_back(side.dot((T * point).head<2>()), static_cast<int>(across.size()));
+  const auto share = static_cast<std::ptrdiff_t>(1 + points.size() / 10);
+  const auto mean_of_first = [&] {
+    std::nth_element(across.begin(), across.begin() + share - 1, across.end());
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    for (std::ptrdiff_t i = 0; i < share; ++i) sum += (T * points[across[i].second]).cast<double>();
+    return Eigen::Vector3d(sum / static_cast<double>(share));
+  };
+  const Eigen::Vector3d right = mean_of_first();
+  for (auto& [place, point] : across) place = -place;
+  return {mean.cast<double>(), right, mean_of_first()};
 }
 
 /// Level steps over ground that the object may have taken, by its outline.
