@@ -88,15 +88,11 @@ void add_level(const ObjectFit& problem, const Pose& T, Matrix6d& H, Twist& b) {
   b[5] -= weight(problem.options.height_sigma_m) * rise;
 }
 
-}  // namespace
-
-Sight sight_in(const ObjectFit& fit, const Eigen::Vector3f& place) {
-  return fit.clues.seen == nullptr ? Sight::open : fit.clues.seen->at(place);
-}
-
-double score_of(const ObjectFit& fit, const Pose& T_target_object, int stride) {
+/// @param sq_distance of a place to the target, as far as it counts; of the i-th point.
+template <typename Distance>
+double score_by(const ObjectFit& fit, const Pose& T_target_object, int stride,
+                const Distance& sq_distance) {
   const Eigen::Isometry3f T = T_target_object.cast<float>();
-  constexpr auto kFarthest = static_cast<float>(kScoreCut * kScoreCut);
   const double just_covered = fit.options.overlap_distance_m;
   double sum = 0;
   int count = 0, visible = 0;
@@ -109,9 +105,34 @@ double score_of(const ObjectFit& fit, const Pose& T_target_object, int stride) {
     else if (sight == Sight::seen_through)
       sum += kScoreCut * kScoreCut;
     else
-      sum += fit.target.nearest(place, kFarthest).sq_distance;
+      sum += sq_distance(place, i);
   }
   return are_enough(fit, visible, count) ? std::sqrt(sum / count) : kScoreCut;
+}
+
+/// As score_of, from what iterations found.
+double score_by_matches(const ObjectFit& fit, const Pose& T_target_object,
+                        std::vector<Correspondence>& matches) {
+  const auto reach = static_cast<float>(fit.options.max_correspondence_m);
+  return score_by(fit, T_target_object, 1, [&](const Eigen::Vector3f& place, std::size_t i) {
+    look_up(fit.target, place, reach, matches[i]);
+    constexpr auto kFarthest = static_cast<float>(kScoreCut * kScoreCut);
+    if (matches[i].index < 0) return kFarthest;
+    return std::min(kFarthest, (fit.target.points()[matches[i].index] - place).squaredNorm());
+  });
+}
+
+}  // namespace
+
+Sight sight_in(const ObjectFit& fit, const Eigen::Vector3f& place) {
+  return fit.clues.seen == nullptr ? Sight::open : fit.clues.seen->at(place);
+}
+
+double score_of(const ObjectFit& fit, const Pose& T_target_object, int stride) {
+  constexpr auto kFarthest = static_cast<float>(kScoreCut * kScoreCut);
+  return score_by(fit, T_target_object, stride, [&](const Eigen::Vector3f& place, std::size_t) {
+    return fit.target.nearest(place, kFarthest).sq_distance;
+  });
 }
 
 SurfaceResidual residual_of(const ObjectFit& fit, const Pose& T_target_object) {
@@ -165,9 +186,9 @@ double overlap_of(const ObjectFit& fit, const Pose& T_target_object) {
   return tells ? static_cast<double>(covered) / visible : 0;
 }
 
-Fitted converge(const ObjectFit& problem, const Pose& guess, double stop) {
+Fitted converge(const ObjectFit& problem, const Pose& guess, double stop, double widening) {
   Pose T = guess;
-  double scale = 4 * problem.options.kernel_m;
+  double scale = widening * problem.options.kernel_m;
   const auto reach = static_cast<float>(problem.options.max_correspondence_m);
   std::vector<Correspondence> matches(problem.points.size());
   for (int i = 0; i < problem.options.max_iterations; ++i) {
@@ -194,7 +215,7 @@ Fitted converge(const ObjectFit& problem, const Pose& guess, double stop) {
     }
     scale = std::max(problem.options.kernel_m, 0.75 * scale);
   }
-  return {T, score_of(problem, T)};
+  return {T, score_by_matches(problem, T, matches)};
 }
 
 }  // namespace lidar_upsampling

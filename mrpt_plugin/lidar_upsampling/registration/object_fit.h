@@ -60,6 +60,8 @@ struct Fitted {
 /// @brief ICP from one guess: point to plane with a little point to point, Geman-McClure weights
 /// whose scale shrinks to the options', softly level with the ego-motion.
 /// @param stop a step this short ends the search, m and rad.
-[[nodiscard]] Fitted converge(const ObjectFit& problem, const Pose& guess, double stop = 2e-4);
+/// @param widening of that scale at first; 1: the guess is good.
+[[nodiscard]] Fitted converge(const ObjectFit& problem, const Pose& guess, double stop,
+                              double widening = 4);
 
 }  // namespace lidar_upsampling

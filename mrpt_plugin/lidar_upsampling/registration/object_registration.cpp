@@ -18,6 +18,8 @@ struct Ambiguity {
   Eigen::Matrix2d slack = Eigen::Matrix2d::Zero();  ///< m^2, level covariance told by them
 };
 
+constexpr double kSettled = 2e-4, kGoodStart = 1e-3;  // m and rad: steps that end a search
+
 Pose shifted_by(const Pose& T, double x, double y) { return Eigen::Translation3d(x, y, 0) * T; }
 
 /// Whether the object may as well be out of the target's sight there: all of it is hidden, and what
@@ -93,18 +95,19 @@ Fitted search_start(const ObjectFit& problem) {
   return best;
 }
 
-Fitted best_fit(const ObjectFit& problem, const std::vector<Pose>& guesses) {
+/// @param stop as converge has it.
+Fitted best_fit(const ObjectFit& problem, const std::vector<Pose>& guesses, double stop) {
   Fitted best;
   for (const Pose& guess : guesses) {
     if (&guess != &guesses.front() && guess.isApprox(guesses.front(), 1e-9)) continue;
-    const Fitted fitted = converge(problem, guess);
+    const Fitted fitted = converge(problem, guess, stop);
     if (fitted.score < best.score) best = fitted;
   }
   if (problem.options.search_m <= 0) return best;
   const Pose start = search_start(problem).T;
   if (start.isApprox(guesses.front(), 1e-9)) return best;  // has been gone from already
   // A far-off start may land on a neighbour that looks alike: it must be clearly better.
-  const Fitted searched = converge(problem, start);
+  const Fitted searched = converge(problem, start, stop);
   return searched.score < 0.8 * best.score ? searched : best;
 }
 
@@ -143,10 +146,11 @@ ObjectRegistration register_object(const Points& points_object, const Surface& t
   const Points points = evenly_thinned(points_object, static_cast<std::size_t>(options.max_points));
   const int choosing = options.choosing_points > 0 ? options.choosing_points : options.max_points;
   const Points few = evenly_thinned(points, static_cast<std::size_t>(choosing));
+  const bool is_chosen_first = few.size() < points.size();
   const ObjectFit problem{points, target, guesses.front(), options, mean_of(points), clues};
   const ObjectFit coarse{few, target, guesses.front(), options, mean_of(few), clues};
-  Fitted best = best_fit(coarse, guesses);
-  if (few.size() < points.size()) best = converge(problem, best.T);
+  Fitted best = best_fit(coarse, guesses, is_chosen_first ? kGoodStart : kSettled);
+  if (is_chosen_first) best = converge(problem, best.T, kSettled, 1);
   result.T_target_object = best.T;
   result.overlap = overlap_of(problem, best.T);
   if (result.overlap < options.min_overlap) {
