@@ -32,6 +32,15 @@ TEST(Azimuth, is_that_of_the_arc_tangent_all_around) {
   }
 }
 
+TEST(Elevation, is_that_of_the_arc_tangent_above_and_below_the_horizon) {
+  for (int step = -1000; step <= 1000; ++step) {
+    const double angle = M_PI / 2 * step / 1000;
+    const auto level = static_cast<float>(7 * std::cos(angle));
+    const auto z = static_cast<float>(7 * std::sin(angle));
+    ASSERT_NEAR(elevation_of(level, z), angle, 1.2e-5);
+  }
+}
+
 TEST(Columns, go_on_beyond_the_turn) {
   const Columns columns(0.01F);
   EXPECT_EQ(columns.at(0.0001F), 0);

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "lidar_upsampling/registration/correspondence.h"
+#include "lidar_upsampling/registration/nearest_point.h"
 #include "lidar_upsampling/se3.h"
 
 namespace lidar_upsampling {
@@ -112,7 +112,7 @@ double score_by(const ObjectFit& fit, const Pose& T_target_object, int stride,
 
 /// As score_of, from what iterations found.
 double score_by_matches(const ObjectFit& fit, const Pose& T_target_object,
-                        std::vector<Correspondence>& matches) {
+                        std::vector<NearestPoint>& matches) {
   const auto reach = static_cast<float>(fit.options.max_correspondence_m);
   return score_by(fit, T_target_object, 1, [&](const Eigen::Vector3f& place, std::size_t i) {
     look_up(fit.target, place, reach, matches[i]);
@@ -190,7 +190,7 @@ Fitted converge(const ObjectFit& problem, const Pose& guess, double stop, double
   Pose T = guess;
   double scale = widening * problem.options.kernel_m;
   const auto reach = static_cast<float>(problem.options.max_correspondence_m);
-  std::vector<Correspondence> matches(problem.points.size());
+  std::vector<NearestPoint> matches(problem.points.size());
   for (int i = 0; i < problem.options.max_iterations; ++i) {
     MatchSums sums;
     const Eigen::Vector3d pivot = T * problem.centroid;
