@@ -60,8 +60,6 @@ def run(command, threads):
         cores, locks = free_cores(threads)
         try:
             code = started(command, cores, errors).wait()
-        except OSError as error:
-            return f"{command[0]}: {error.strerror}; `tools` of the configuration tells where it is", False
         finally:
             for lock in locks:
                 lock.close()
