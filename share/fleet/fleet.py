@@ -56,7 +56,7 @@ def started(command, cores, errors):
 
 def run(command, threads):
     """Why it failed, or None; and whether to try again."""
-    with tempfile.TemporaryFile("w+") as errors:
+    with tempfile.TemporaryFile("w+", errors="replace") as errors:
         cores, locks = free_cores(threads)
         try:
             code = started(command, cores, errors).wait()
@@ -64,12 +64,13 @@ def run(command, threads):
             for lock in locks:
                 lock.close()
         errors.seek(0)
-        lines = [line for line in errors.read().splitlines() if line.strip()]
+        last = ([""] + errors.read().splitlines())[-1]
     if code == 0:
         return None, False
     if code < 0:
         return f"killed by {signal.Signals(-code).name}", True
-    return (lines[-1] if lines else f"exit status {code}"), False
+    tool = Path(command[0]).name  # says why in its last line, but for what a library of its ends by itself
+    return last if last.startswith(tool) else f"{tool}: exit status {code}: {last}", False
 
 
 def step(arguments):

@@ -78,9 +78,12 @@ TEST_F(Fleet, a_job_that_is_killed_each_time_is_told_in_the_summary) {
   EXPECT_TRUE(contains(page, "| in | densify: killed by SIGKILL, each time |")) << page;
 }
 
-TEST_F(Fleet, there_is_a_summary_where_snakemake_gives_a_job_up) {
-  const std::string page = summary(1, tools_with_densify("kill -9 $PPID\n"));
+TEST_F(Fleet, a_job_that_is_given_up_is_told_in_the_summary_and_done_when_asked_again) {
+  const std::string tools = tools_with_densify("kill -9 $PPID\n");
+  const std::string page = summary(1, tools);
   EXPECT_TRUE(contains(page, "| in | densify: not finished |")) << page;
+  std::ofstream(tools + "/rawlog-densify") << "#!/bin/sh\nexec " RAWLOG_DENSIFY " \"$@\"\n";
+  EXPECT_TRUE(contains(summary(0, tools), kDone));
 }
 
 }  // namespace
