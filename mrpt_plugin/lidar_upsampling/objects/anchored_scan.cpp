@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "lidar_upsampling/objects/beam_step.h"
 #include "lidar_upsampling/units.h"
@@ -45,8 +46,9 @@ AnchoredScan anchor_scan(const LidarScan& scan, const CameraModel& camera,
   AnchoredScan result;
   result.points = project_scan(camera, T_camera_lidar_a, scan.points);
   result.sampling = sampling_of(scan, camera);
-  result.hidden = mark_occluded(result.points, result.sampling);
-  result.on_edge = mark_depth_edges(result.points, result.sampling);
+  Visibility visibility = mark_visibility(result.points, result.sampling);
+  result.hidden = std::move(visibility.hidden);
+  result.on_edge = std::move(visibility.on_edge);
   result.position.assign(scan.size(), -1);
   for (std::size_t i = 0; i < result.points.size(); ++i)
     result.position[result.points[i].index] = static_cast<int>(i);

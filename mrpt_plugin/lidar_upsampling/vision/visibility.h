@@ -33,4 +33,14 @@ struct Neighbourhood {
 [[nodiscard]] std::vector<std::uint8_t> mark_depth_edges(const std::vector<ProjectedPoint>& points,
                                                          const Neighbourhood& neighbourhood = {});
 
+/// What mark_occluded() and mark_depth_edges() tell.
+struct Visibility {
+  std::vector<std::uint8_t> hidden, on_edge;  ///< of each point
+};
+
+/// @brief Both at once, which is faster.
+/// @throw std::invalid_argument a neighbourhood that is not positive.
+[[nodiscard]] Visibility mark_visibility(const std::vector<ProjectedPoint>& points,
+                                         const Neighbourhood& neighbourhood = {});
+
 }  // namespace lidar_upsampling
