@@ -51,8 +51,8 @@ TEST_F(PostBeforeAWall, is_itself_where_it_is_and_the_wall_is_none_of_it) {
   };
   EXPECT_EQ(label_at(0), 0);
   for (const double side : {-1., 1.}) {
-    EXPECT_NE(label_at(25 * side), 0);
-    EXPECT_NE(label_at(25 * side), SurfaceMap::kUnknown);
+    EXPECT_NE(label_at(16 * side), 0);
+    EXPECT_NE(label_at(16 * side), SurfaceMap::kUnknown);
   }
   EXPECT_EQ(surfaces_.label.at<std::int16_t>(20, cvRound(middle_)), SurfaceMap::kUnknown);
 }

@@ -15,11 +15,53 @@ namespace {
 
 constexpr std::int16_t kOthers = std::numeric_limits<std::int16_t>::max();  // no object's surface
 
-/// A point with the surface that it shows.
+/// What is painted for a point: the surface that it shows, where its place may be.
 struct Spot {
-  ProjectedPoint at;
+  float depth;
   std::int16_t label;
+  cv::Rect place;
 };
+
+/// Where patches about the objects' points lie, in squares of the picture.
+class PatchPlaces {
+ public:
+  PatchPlaces(const std::vector<std::vector<ProjectedPoint>>& objects, const cv::Size& size)
+      : squares_(cv::Mat1b::zeros(size.height / kSide_px + 1, size.width / kSide_px + 1)),
+        picture_({}, size) {
+    constexpr int kReach = kPatchHalf_px + 1;
+    for (const auto& points : objects)
+      for (const ProjectedPoint& point : points) {
+        const cv::Point corner(cvRound(point.u) - kReach, cvRound(point.v) - kReach);
+        const cv::Rect patch = cv::Rect(corner, cv::Size(2 * kReach + 1, 2 * kReach + 1));
+        for_each_square(patch & picture_, [](std::uint8_t& square) { square = 1; });
+      }
+  }
+
+  [[nodiscard]] bool touch(const cv::Rect& place) {
+    std::uint8_t any = 0;
+    for_each_square(place, [&](std::uint8_t square) { any |= square; });
+    return any != 0;
+  }
+
+ private:
+  static constexpr int kSide_px = 8;
+
+  template <typename Action>
+  void for_each_square(const cv::Rect& place, const Action& action) {
+    if (place.empty()) return;
+    const int right = (place.br().x - 1) / kSide_px, bottom = (place.br().y - 1) / kSide_px;
+    for (int y = place.y / kSide_px; y <= bottom; ++y)
+      for (int x = place.x / kSide_px; x <= right; ++x) action(squares_(y, x));
+  }
+
+  cv::Mat1b squares_;
+  cv::Rect picture_;
+};
+
+void paint(const Spot& spot, cv::Mat& label) {
+  for (int v = spot.place.y; v < spot.place.br().y; ++v)
+    std::fill_n(label.ptr<std::int16_t>(v) + spot.place.x, spot.place.width, spot.label);
+}
 
 }  // namespace
 
@@ -92,30 +134,33 @@ std::vector<ProjectedPoint> reprojected(const std::vector<ProjectedPoint>& point
 SurfaceMap surfaces_on(const AnchoredScan& anchored,
                        const std::vector<std::vector<ProjectedPoint>>& objects,
                        const cv::Size& size) {
-  std::vector<std::uint8_t> is_other(anchored.points.size(), 1);
+  // A point's edge may lie anywhere until the next ring and azimuth step; the neighbourhood holds
+  // them with 1.3 and 2.6 times the room.
+  const double half_width = anchored.sampling.half_width_px / 2.6;
+  const double half_height = anchored.sampling.half_height_px / 1.3;
+  const cv::Rect picture({}, size);
+  PatchPlaces patches(objects, size);
   std::vector<Spot> spots;
+  const auto add = [&](const ProjectedPoint& point, std::int16_t label) {
+    const cv::Point low(cvRound(point.u - half_width), cvRound(point.v - half_height));
+    const cv::Point high(cvRound(point.u + half_width), cvRound(point.v + half_height));
+    const cv::Rect place = cv::Rect(low, high + cv::Point(1, 1)) & picture;
+    if (patches.touch(place)) spots.push_back({point.depth, label, place});
+  };
+  std::vector<std::uint8_t> is_other(anchored.points.size(), 1);
   for (std::size_t i = 0; i < objects.size(); ++i) {
     for (const ProjectedPoint& point : objects[i]) {
-      spots.push_back({point, static_cast<std::int16_t>(std::min<std::size_t>(i, kOthers - 1))});
+      add(point, static_cast<std::int16_t>(std::min<std::size_t>(i, kOthers - 1)));
       is_other[anchored.position[point.index]] = 0;
     }
   }
   for (std::size_t i = 0; i < is_other.size(); ++i)
-    if (is_other[i] != 0 && anchored.hidden[i] == 0) spots.push_back({anchored.points[i], kOthers});
+    if (is_other[i] != 0 && anchored.hidden[i] == 0) add(anchored.points[i], kOthers);
   // What is near is painted over what is behind it.
   std::stable_sort(spots.begin(), spots.end(),
-                   [](const Spot& a, const Spot& b) { return a.at.depth > b.at.depth; });
+                   [](const Spot& a, const Spot& b) { return a.depth > b.depth; });
   SurfaceMap map{cv::Mat(size, CV_16S, cv::Scalar(SurfaceMap::kUnknown))};
-  const cv::Rect picture({}, size);
-  // Its edge may lie anywhere until the next ring and azimuth step; the neighbourhood holds them
-  // with 1.3 and 2.6 times the room.
-  const double half_width = anchored.sampling.half_width_px / 2.6;
-  const double half_height = anchored.sampling.half_height_px / 1.3;
-  for (const Spot& spot : spots) {
-    const cv::Point low(cvRound(spot.at.u - half_width), cvRound(spot.at.v - half_height));
-    const cv::Point high(cvRound(spot.at.u + half_width), cvRound(spot.at.v + half_height));
-    map.label(cv::Rect(low, high + cv::Point(1, 1)) & picture).setTo(spot.label);
-  }
+  for (const Spot& spot : spots) paint(spot, map.label);
   return map;
 }
 

@@ -47,7 +47,7 @@ struct AnchoredScan {
                                                       const Pose& T_camera_a_lidar_k);
 
 /// @brief Which surface each pixel shows: that of the nearest point whose place it may be, a ring
-/// and an azimuth step around it.
+/// and an azimuth step around it. It is told as far from the objects' points as a patch reaches.
 /// @param objects points of each on the picture, where they are at the anchor; their positions are
 /// the labels. All others are of one more surface.
 [[nodiscard]] SurfaceMap surfaces_on(const AnchoredScan& anchored,

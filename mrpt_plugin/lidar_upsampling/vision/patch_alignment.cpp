@@ -13,7 +13,7 @@
 namespace lidar_upsampling {
 namespace {
 
-constexpr int kHalf = 8;  // px, of a patch's side, without its middle
+constexpr int kHalf = kPatchHalf_px;
 constexpr int kWindow = 2 * kHalf + 1;
 constexpr int kNumPixels = kWindow * kWindow;
 

@@ -18,6 +18,8 @@ struct SurfaceMap {
   cv::Mat label;  ///< CV_16S, of the picture's size; empty: nothing is known
 };
 
+constexpr int kPatchHalf_px = 8;  ///< of a patch's side, without its middle
+
 struct Alignment {
   cv::Point2f point;   ///< on the second picture
   float residual = 0;  ///< mean absolute difference after the change of gain and bias, gray levels
