@@ -50,22 +50,21 @@ double step_from_elevations(const LidarScan& scan) {
 
 double estimate_vertical_step_deg(const LidarScan& scan) {
   if (scan.num_rings < 2 || scan.ring.empty()) return step_from_elevations(scan);
-  std::vector<double> sum(scan.num_rings, 0.);
   std::vector<int> count(scan.num_rings, 0);
-  for (std::size_t i = 0; i < scan.size(); ++i) {
-    const Eigen::Vector3f& p = scan.points[i];
-    sum[scan.ring[i]] += std::atan2(p.z(), p.head<2>().norm());
-    ++count[scan.ring[i]];
-  }
-  int lowest = -1;
-  int highest = -1;
-  for (int ring = 0; ring < scan.num_rings; ++ring) {
-    if (count[ring] == 0) continue;
-    if (lowest < 0) lowest = ring;
-    highest = ring;
-  }
+  for (const std::uint16_t ring : scan.ring) ++count[ring];
+  const auto has_points = [](int points) { return points > 0; };
+  const auto first = std::find_if(count.begin(), count.end(), has_points);
+  const auto last = std::find_if(count.rbegin(), count.rend(), has_points);
+  const int lowest = static_cast<int>(first - count.begin());
+  const int highest = static_cast<int>(count.rend() - last) - 1;
   if (highest <= lowest) return kDefaultVerticalStepDeg;
-  const double span = sum[highest] / count[highest] - sum[lowest] / count[lowest];
+  double sum_lowest = 0, sum_highest = 0;
+  for (std::size_t i = 0; i < scan.size(); ++i) {
+    if (scan.ring[i] != lowest && scan.ring[i] != highest) continue;
+    const Eigen::Vector3f& p = scan.points[i];
+    (scan.ring[i] == lowest ? sum_lowest : sum_highest) += std::atan2(p.z(), p.head<2>().norm());
+  }
+  const double span = sum_highest / count[highest] - sum_lowest / count[lowest];
   return std::abs(span) / kDegree / (highest - lowest);
 }
 

@@ -11,10 +11,9 @@
 #include <numeric>
 #include <stdexcept>
 #include <string>
-#include <unordered_map>
 
 #include "lidar_upsampling/objects/cluster_extent.h"
-#include "lidar_upsampling/registration/point_index.h"
+#include "lidar_upsampling/objects/column_grid.h"
 #include "lidar_upsampling/registration/voxel_grid.h"
 #include "lidar_upsampling/units.h"
 
@@ -49,20 +48,22 @@ std::vector<float> sq_reaches(std::vector<Eigen::Vector3f>& points, const Cluste
 }
 
 /// A link is noted by the end that reaches further.
-std::vector<Links> find_links(const PointIndex& index, const std::vector<float>& sq_reach) {
+std::vector<Links> find_links(const std::vector<Eigen::Vector3f>& points,
+                              const std::vector<float>& sq_reach) {
+  const float farthest = std::sqrt(*std::max_element(sq_reach.begin(), sq_reach.end()));
+  const ColumnGrid grid(points, farthest / 2);
   tbb::enumerable_thread_specific<Links> links;
-  tbb::parallel_for(tbb::blocked_range<int>(0, static_cast<int>(sq_reach.size()), 512),
+  tbb::parallel_for(tbb::blocked_range<int>(0, static_cast<int>(points.size()), 512),
                     [&](const auto& part) {
                       Links& noted = links.local();
-                      std::vector<PointIndex::Neighbor> around;
-                      for (int i = part.begin(); i < part.end(); ++i) {
+                      for (int place = part.begin(); place < part.end(); ++place) {
+                        const int i = grid.point[place];
                         const float mine = sq_reach[i];
-                        index.within(index.points()[i], mine, around);
-                        for (const auto& [other, sq_distance] : around) {
+                        grid.for_each_within(place, mine, [&](int other, float sq_distance) {
                           const float theirs = sq_reach[other];
                           if (theirs < mine || (theirs == mine && other < i))
                             noted.push_back({i, other, sq_distance / mine});
-                        }
+                        });
                       }
                     });
   return {links.begin(), links.end()};
@@ -116,9 +117,9 @@ class Splitter {
     for (const int index : indices) selected.push_back(points[index]);
     VoxelGroups voxels = group_by_voxel(selected, options.voxel_size);
     const std::vector<float> sq_reach = sq_reaches(voxels.means, options);
-    levels_ = connect(find_links(PointIndex(std::move(voxels.means)), sq_reach), sq_reach.size(),
-                      options);
+    levels_ = connect(find_links(voxels.means, sq_reach), sq_reach.size(), options);
     representative_ = std::move(voxels.of_point);
+    part_of_.assign(sq_reach.size(), kNone);
   }
 
   Clusters run() {
@@ -130,10 +131,7 @@ class Splitter {
 
  private:
   void split(const std::vector<int>& members, std::size_t level) {
-    std::unordered_map<int, std::vector<int>> parts;  // by their roots
-    for (const int member : members)
-      parts[levels_[level].find(representative_[member])].push_back(member);
-    for (const auto& [root, part] : parts) {
+    for (const std::vector<int>& part : parts_of(members, level)) {
       if (static_cast<int>(part.size()) < options_.min_points) continue;
       std::vector<int> cluster;
       cluster.reserve(part.size());
@@ -141,10 +139,27 @@ class Splitter {
       if (level + 1 < levels_.size() && is_too_large(cluster)) {
         split(part, level + 1);
       } else {
-        std::sort(cluster.begin(), cluster.end());
+        if (!std::is_sorted(cluster.begin(), cluster.end()))
+          std::sort(cluster.begin(), cluster.end());
         clusters_.push_back(std::move(cluster));
       }
     }
+  }
+
+  Clusters parts_of(const std::vector<int>& members, std::size_t level) {
+    Clusters parts;
+    std::vector<int> roots;  // of each part
+    for (const int member : members) {
+      const int root = levels_[level].find(representative_[member]);
+      if (part_of_[root] == kNone) {
+        part_of_[root] = static_cast<int>(parts.size());
+        parts.emplace_back();
+        roots.push_back(root);
+      }
+      parts[part_of_[root]].push_back(member);
+    }
+    for (const int root : roots) part_of_[root] = kNone;
+    return parts;
   }
 
   [[nodiscard]] bool is_too_large(const std::vector<int>& cluster) const {
@@ -166,6 +181,8 @@ class Splitter {
   const ClusterOptions& options_;
   std::vector<int> representative_;  // of each position: one for each voxel
   std::vector<DisjointSets> levels_;
+  static constexpr int kNone = -1;
+  std::vector<int> part_of_;  // of each root, while parts are made
   Clusters clusters_;
 };
 
