@@ -2,6 +2,8 @@
 // Copyright (c) 2026, the lidar_upsampling authors
 #include "lidar_upsampling/objects/road_users.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -50,6 +52,43 @@ Window window_below(const LidarScan& scan, const Ground& ground, const std::vect
   return window;
 }
 
+/// How far away a scan's points are, horizontally, and the tangents of their elevations.
+class Elevations {
+ public:
+  explicit Elevations(const LidarScan& scan) : range_(scan.size()), slope_(scan.size(), kNowhere) {
+    blocks_.resize((scan.size() + kBlock - 1) / kBlock);
+    for (std::size_t i = 0; i < scan.size(); ++i) {
+      range_[i] = scan.points[i].head<2>().norm();
+      if (!(range_[i] > 0)) continue;
+      slope_[i] = scan.points[i].z() / range_[i];
+      Block& block = blocks_[i / kBlock];
+      block.lowest = std::min(block.lowest, slope_[i]);
+      block.highest = std::max(block.highest, slope_[i]);
+    }
+  }
+
+  /// Calls `action(point, range)` for each point between, both excluded.
+  template <typename Action>
+  void for_each_between(float low, float high, const Action& action) const {
+    for (std::size_t b = 0; b < blocks_.size(); ++b) {
+      if (blocks_[b].highest <= low || blocks_[b].lowest >= high) continue;
+      const std::size_t end = std::min(slope_.size(), (b + 1) * kBlock);
+      for (std::size_t i = b * kBlock; i < end; ++i)
+        if (slope_[i] > low && slope_[i] < high) action(i, range_[i]);
+    }
+  }
+
+ private:
+  static constexpr std::size_t kBlock = 64;
+  static constexpr float kNowhere = std::numeric_limits<float>::infinity();
+  struct Block {
+    float lowest = kNowhere, highest = -kNowhere;
+  };
+
+  std::vector<float> range_, slope_;
+  std::vector<Block> blocks_;  // what a stretch of points spans: most hold none that is asked for
+};
+
 bool within(double value, double low, double high) { return value >= low && value <= high; }
 
 /// But for where it begins above the ground. What one ring shows reaches up to the next, `ring_m`.
@@ -79,26 +118,29 @@ bool is_cut_off(const LidarScan& scan, const std::optional<double>& horizontal_s
   });
 }
 
-}  // namespace
-
-bool foot_is_hidden(const LidarScan& scan, const Ground& ground, const std::vector<int>& cluster) {
+bool foot_is_hidden(const LidarScan& scan, const Elevations& elevations, const Ground& ground,
+                    const std::vector<int>& cluster) {
   constexpr float kMargin = 0.5F;  // m, what is as far away is part of it
   constexpr int kHiddenPerSeen = 3;
   const Window window = window_below(scan, ground, cluster);
   int num_hidden = 0;
   int num_seen = 0;
-  for (const Eigen::Vector3f& point : scan.points) {
+  elevations.for_each_between(window.foot, window.lowest, [&](std::size_t i, float range) {
+    const Eigen::Vector3f& point = scan.points[i];
     const float range_ahead = window.ahead.dot(point.head<2>());
-    if (range_ahead <= 0) continue;
+    if (range_ahead <= 0) return;
     const float side = across(window.ahead, point);
-    if (side > window.left || side < window.right) continue;
-    const float range = point.head<2>().norm();
-    const float slope = point.z() / range;
-    if (slope <= window.foot || slope >= window.lowest) continue;
+    if (side > window.left || side < window.right) return;
     num_hidden += static_cast<int>(range < window.nearest - kMargin);
     num_seen += static_cast<int>(range > window.farthest + kMargin);
-  }
+  });
   return num_hidden > kHiddenPerSeen * num_seen;
+}
+
+}  // namespace
+
+bool foot_is_hidden(const LidarScan& scan, const Ground& ground, const std::vector<int>& cluster) {
+  return foot_is_hidden(scan, Elevations(scan), ground, cluster);
 }
 
 const char* class_by_size(const ClusterExtent& extent) {
@@ -114,6 +156,7 @@ std::vector<const char*> why_no_road_users(const LidarScan& scan, const SceneSeg
                                            const ClusterDetectorOptions& options) {
   const bool has_ground = segments.ground.status == GroundStatus::found;
   std::vector<const char*> why;
+  std::vector<std::size_t> afloat;
   for (std::size_t i = 0; i < segments.clusters.size(); ++i) {
     const auto& cluster = segments.clusters[i];
     const ClusterExtent& extent = segments.extents[i];
@@ -122,10 +165,16 @@ std::vector<const char*> why_no_road_users(const LidarScan& scan, const SceneSeg
                                   is_cut_off(scan, segments.horizontal_step_deg, cluster),
                                   options));
     // The ring below may just have missed it.
-    if (why.back() == nullptr && has_ground && extent.bottom > options.max_bottom + ring_m &&
-        !foot_is_hidden(scan, segments.ground, cluster))
-      why.back() = "above_the_ground";
+    if (why.back() == nullptr && has_ground && extent.bottom > options.max_bottom + ring_m)
+      afloat.push_back(i);
   }
+  if (afloat.empty()) return why;
+  const Elevations elevations(scan);
+  tbb::parallel_for(std::size_t{0}, afloat.size(), [&](std::size_t k) {
+    const auto& cluster = segments.clusters[afloat[k]];
+    if (!foot_is_hidden(scan, elevations, segments.ground, cluster))
+      why[afloat[k]] = "above_the_ground";
+  });
   return why;
 }
 
