@@ -9,7 +9,6 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 #include <opencv2/video/tracking.hpp>
-#include <optional>
 #include <stdexcept>
 #include <string>
 
@@ -23,7 +22,6 @@ constexpr double kSmoothing_px = 0.7;  // sigma of a blur: interpolation errs on
 struct Flow {
   std::vector<cv::Point2f> points;
   std::vector<std::uint8_t> found;
-  std::vector<float> residual;
 };
 
 Flow track_one_way(const ImagePyramid& from, const ImagePyramid& to,
@@ -34,7 +32,7 @@ Flow track_one_way(const ImagePyramid& from, const ImagePyramid& to,
   const cv::TermCriteria stop(cv::TermCriteria::COUNT + cv::TermCriteria::EPS,
                               options.max_iterations, options.epsilon_px);
   cv::calcOpticalFlowPyrLK(from.levels(), to.levels(), points, flow.points, flow.found,
-                           flow.residual, cv::Size(options.window_px, options.window_px), levels,
+                           cv::noArray(), cv::Size(options.window_px, options.window_px), levels,
                            stop, cv::OPTFLOW_USE_INITIAL_FLOW, options.min_eigenvalue);
   return flow;
 }
@@ -50,17 +48,25 @@ bool patch_inside(const cv::Size& size, const cv::Point2f& point, int window_px)
 std::vector<std::uint8_t> come_back(const ImagePyramid& from, const ImagePyramid& to,
                                     const std::vector<cv::Point2f>& points, const Flow& forward,
                                     const KltOptions& options) {
-  // The way back starts at its end, so that coarse levels have nothing to say.
-  const int levels = std::min(1, options.pyramid_levels);
-  const Flow back = track_one_way(to, from, forward.points, points, levels, options);
   std::vector<std::uint8_t> result(points.size(), 0);
+  std::vector<std::size_t> which;
+  std::vector<cv::Point2f> starts, ends;
   for (std::size_t i = 0; i < points.size(); ++i) {
-    if (forward.found[i] == 0 || back.found[i] == 0) continue;
+    if (forward.found[i] == 0) continue;
     if (!patch_inside(from.size(), points[i], options.window_px)) continue;
     if (!patch_inside(to.size(), forward.points[i], options.window_px)) continue;
-    const cv::Point2f offset = back.points[i] - points[i];
-    const auto limit = static_cast<float>(options.max_forward_backward_px);
-    result[i] = std::hypot(offset.x, offset.y) <= limit ? 1 : 0;
+    which.push_back(i);
+    starts.push_back(points[i]);
+    ends.push_back(forward.points[i]);
+  }
+  if (which.empty()) return result;
+  // The way back starts at its end, so that coarse levels have nothing to say.
+  const int levels = std::min(1, options.pyramid_levels);
+  const Flow back = track_one_way(to, from, ends, starts, levels, options);
+  const auto limit = static_cast<float>(options.max_forward_backward_px);
+  for (std::size_t k = 0; k < which.size(); ++k) {
+    const cv::Point2f offset = back.points[k] - starts[k];
+    result[which[k]] = back.found[k] != 0 && std::hypot(offset.x, offset.y) <= limit ? 1 : 0;
   }
   return result;
 }
@@ -75,17 +81,14 @@ void align_all(const ImagePyramid& from, const ImagePyramid& to,
   const auto align_one = [&](std::size_t i) {
     std::vector<float> own;
     if (labels != nullptr) own = own_pixels(labels->surfaces, labels->of_point[i], points[i]);
-    std::optional<Alignment> best;
-    const auto align_from = [&](const cv::Point2f& start) {
-      auto found = align_patch(from.full(), to.full(), points[i], start, own);
-      if (found && (!best || found->residual < best->residual)) best = std::move(found);
-    };
-    if (result.tracked[i] != 0) align_from(result.points[i]);
+    std::vector<cv::Point2f> starts;
+    if (result.tracked[i] != 0) starts.push_back(result.points[i]);
     const auto is_new = [&](const cv::Point2f& start) {
       const cv::Point2f apart = start - result.points[i];
       return result.tracked[i] == 0 || std::hypot(apart.x, apart.y) > kSameStart_px;
     };
-    if (!own.empty() && is_new(guesses[i])) align_from(guesses[i]);
+    if (!own.empty() && is_new(guesses[i])) starts.push_back(guesses[i]);
+    const auto best = align_patch(from.full(), to.full(), points[i], starts, own);
     result.tracked[i] = best ? 1 : 0;
     if (!best) return;
     result.points[i] = best->point;
@@ -148,7 +151,7 @@ KltResult track_points(const ImagePyramid& from, const ImagePyramid& to,
   Flow forward = track_one_way(from, to, points, starts, options.pyramid_levels, options);
   result.tracked = come_back(from, to, points, forward, options);
   result.points = std::move(forward.points);
-  result.residual = std::move(forward.residual);
+  result.residual.assign(points.size(), 0);
   result.covariance.assign(points.size(), Eigen::Matrix2f::Zero());
   align_all(from, to, points, starts, labels, result);
   for (std::size_t i = 0; i < points.size(); ++i) {

@@ -10,11 +10,12 @@
 #include <cstdint>
 #include <utility>
 
+#include "lidar_upsampling/vision/patch_sampling.h"
+
 namespace lidar_upsampling {
 namespace {
 
-constexpr int kHalf = kPatchHalf_px;
-constexpr int kWindow = 2 * kHalf + 1;
+constexpr int kHalf = kPatchHalf_px, kWindow = kPatchSide_px;
 constexpr int kNumPixels = kWindow * kWindow;
 
 // Expected changes of a patch: of its shape, per entry of the matrix, and of contrast; gray levels'
@@ -38,39 +39,15 @@ struct Template {
   Eigen::Matrix<float, 8, kNumPixels> jacobian;
 };
 
-bool inside(const cv::Mat& image, float x, float y) {
-  return x >= 0 && y >= 0 && x < static_cast<float>(image.cols - 1) &&
-         y < static_cast<float>(image.rows - 1);
-}
-
-/// A square of the picture whose pixels all lie alike between the picture's own.
-/// @param out rows of `width` values.
-void cut_out(const cv::Mat& image, float x, float y, int width, float* out) {
-  const int left = static_cast<int>(x), top = static_cast<int>(y);
-  const float fx = x - static_cast<float>(left), fy = y - static_cast<float>(top);
-  std::array<float, kWindow + 3> upper, lower;
-  const auto read = [&](int v, std::array<float, kWindow + 3>& row) {
-    const float* from = image.ptr<float>(top + v) + left;
-    for (int u = 0; u <= width; ++u) row[u] = from[u];
-    for (int u = 0; u < width; ++u) row[u] += fx * (row[u + 1] - row[u]);
-  };
-  read(0, upper);
-  for (int v = 1; v <= width; ++v, out += width) {
-    read(v, lower);
-    for (int u = 0; u < width; ++u) out[u] = upper[u] + fy * (lower[u] - upper[u]);
-    std::swap(upper, lower);
-  }
-}
-
 /// False if the patch with the pixels around it leaves the picture.
-bool make_template(const cv::Mat& image, const cv::Point2f& point, const std::vector<float>& weight,
+bool make_template(const cv::Mat& image, const cv::Point2f& point, const Pixels& weight,
                    Template& result) {
   constexpr int width = kWindow + 2;
   constexpr float reach = kHalf + 1;
   if (!inside(image, point.x - reach, point.y - reach)) return false;
   if (!inside(image, point.x + reach, point.y + reach)) return false;
   std::array<float, width * width> gray;
-  cut_out(image, point.x - reach, point.y - reach, width, gray.data());
+  cut_out<width>(image, point.x - reach, point.y - reach, gray.data());
   int i = 0;
   float sum = 0;
   for (int v = -kHalf; v <= kHalf; ++v) {
@@ -93,66 +70,14 @@ bool make_template(const cv::Mat& image, const cv::Point2f& point, const std::ve
   return true;
 }
 
-/// A row of a deformed patch, in loops over whole vectors.
-class WarpedRow {
- public:
-  /// @param x, y of its middle. @param by_x, by_y from pixel to pixel.
-  WarpedRow(float x, float y, float by_x, float by_y) {
-    for (int u = 0; u < kWidth; ++u) {
-      const auto from_middle = static_cast<float>(u - kHalf);
-      const float px = x + by_x * from_middle, py = y + by_y * from_middle;
-      left_[u] = static_cast<int>(px);
-      top_[u] = static_cast<int>(py);
-      fx_[u] = px - static_cast<float>(left_[u]);
-      fy_[u] = py - static_cast<float>(top_[u]);
-    }
-  }
-
-  void sample(const float* pixels, int step, float* out) const {
-    Row above{}, above_right{}, below{}, below_right{}, mixed;
-    for (int u = 0; u < kWindow; ++u) {
-      const float* const upper = pixels + (top_[u] * step + left_[u]);
-      above[u] = upper[0];
-      above_right[u] = upper[1];
-      below[u] = upper[step];
-      below_right[u] = upper[step + 1];
-    }
-    for (int u = 0; u < kWidth; ++u) {
-      const float at_left = above[u] + fy_[u] * (below[u] - above[u]);
-      const float at_right = above_right[u] + fy_[u] * (below_right[u] - above_right[u]);
-      mixed[u] = at_left + fx_[u] * (at_right - at_left);
-    }
-    std::copy_n(mixed.begin(), kWindow, out);
-  }
-
- private:
-  static constexpr int kWidth = (kWindow + 3) / 4 * 4;  // vectors of four
-  using Row = std::array<float, kWidth>;
-  std::array<int, kWidth> left_, top_;
-  Row fx_, fy_;
-};
-
-/// The patch of the second picture, deformed to the template's; false if it leaves the picture.
-bool warp(const cv::Mat& image, const cv::Point2f& guess, const Parameters& p, Pixels& warped) {
+/// Whether the deformed patch lies in the second picture.
+bool is_inside(const cv::Mat& image, const cv::Point2f& guess, const Parameters& p) {
   const float x0 = guess.x + p[0];
   const float y0 = guess.y + p[1];
   constexpr float reach = kHalf;
   const float reach_x = reach * (1 + std::abs(p[2]) + std::abs(p[3]));
   const float reach_y = reach * (1 + std::abs(p[4]) + std::abs(p[5]));
-  if (!inside(image, x0 - reach_x, y0 - reach_y)) return false;
-  if (!inside(image, x0 + reach_x, y0 + reach_y)) return false;
-  if (p.segment<4>(2).isZero(0)) {
-    cut_out(image, x0 - reach, y0 - reach, kWindow, warped.data());
-    return true;
-  }
-  const float* const pixels = image.ptr<float>();
-  const auto step = static_cast<int>(image.step1());
-  for (int v = -kHalf; v <= kHalf; ++v) {
-    const auto y = static_cast<float>(v);
-    WarpedRow row(x0 + p[3] * y, y0 + y + p[5] * y, 1 + p[2], p[4]);
-    row.sample(pixels, step, &warped[(v + kHalf) * kWindow]);
-  }
-  return true;
+  return inside(image, x0 - reach_x, y0 - reach_y) && inside(image, x0 + reach_x, y0 + reach_y);
 }
 
 /// Of each pixel, falling from the middle.
@@ -165,67 +90,123 @@ std::vector<float> make_weights() {
   return weights;
 }
 
-}  // namespace
-
-std::vector<float> own_pixels(const SurfaceMap& surfaces, std::int16_t label,
-                              const cv::Point2f& point) {
-  if (surfaces.label.empty() || label == SurfaceMap::kUnknown) return {};
-  const cv::Point corner(cvRound(point.x) - kHalf, cvRound(point.y) - kHalf);
-  const cv::Rect picture({}, surfaces.label.size());
-  std::vector<float> own;
-  for (int i = 0; i < kNumPixels; ++i) {
-    const cv::Point pixel = corner + cv::Point(i % kWindow, i / kWindow);
-    if (!picture.contains(pixel)) continue;
-    const auto here = surfaces.label.at<std::int16_t>(pixel);
-    if (here == label || here == SurfaceMap::kUnknown) continue;
-    own.resize(kNumPixels, 1);
-    own[i] = 0;
-  }
-  return own;
-}
-
-std::optional<Alignment> align_patch(const cv::Mat& from, const cv::Mat& to,
-                                     const cv::Point2f& point, const cv::Point2f& guess,
-                                     const std::vector<float>& own) {
-  static const std::vector<float> kWeights = make_weights();
-  std::vector<float> weights = kWeights;
-  for (std::size_t i = 0; i < own.size(); ++i) weights[i] *= own[i];
-  using Values = Eigen::Map<const Eigen::ArrayXf>;
-  const Values weight(weights.data(), kNumPixels);
-  const float weight_sum = weight.sum();
-  if (weight_sum < kMinOwnShare * Values(kWeights.data(), kNumPixels).sum()) return std::nullopt;
+/// What is the same wherever the search starts.
+struct Reference {
+  alignas(16) Pixels weight;  // as Eigen's sum begins where the memory is aligned
+  float weight_sum = 0;
   Template templ;
-  if (!make_template(from, point, weights, templ)) return std::nullopt;
-  const auto sq = [](double value) { return static_cast<float>(value * value); };
   Parameters prior;
-  prior << 0, 0, Eigen::Vector4f::Constant(sq(kGraySigma / kAffineSigma)),
+  Eigen::LLT<Matrix8f> solver;
+};
+
+using Values = Eigen::Map<const Eigen::ArrayXf>;
+
+float sq(double value) { return static_cast<float>(value * value); }
+
+/// False if the patch leaves the picture or shows hardly anything of its own.
+bool make_reference(const cv::Mat& image, const cv::Point2f& point, const std::vector<float>& own,
+                    Reference& result) {
+  static const std::vector<float> kWeights = make_weights();
+  static const float kWhole = Values(kWeights.data(), kNumPixels).sum();
+  std::copy(kWeights.begin(), kWeights.end(), result.weight.begin());
+  for (std::size_t i = 0; i < own.size(); ++i) result.weight[i] *= own[i];
+  result.weight_sum = Values(result.weight.data(), kNumPixels).sum();
+  if (result.weight_sum < kMinOwnShare * kWhole) return false;
+  if (!make_template(image, point, result.weight, result.templ)) return false;
+  result.prior << 0, 0, Eigen::Vector4f::Constant(sq(kGraySigma / kAffineSigma)),
       sq(kGraySigma / kGainSigma), 0;
   Matrix8f normal = Matrix8f::Zero();
-  normal.selfadjointView<Eigen::Lower>().rankUpdate(templ.jacobian);
-  normal.diagonal() += prior;
-  const Eigen::LLT<Matrix8f> solver(normal);
-  if (solver.info() != Eigen::Success) return std::nullopt;
+  normal.selfadjointView<Eigen::Lower>().rankUpdate(result.templ.jacobian);
+  normal.diagonal() += result.prior;
+  result.solver.compute(normal);
+  return result.solver.info() == Eigen::Success;
+}
 
+/// Weighted differences of the deformed patch and the template, and what they say of the
+/// parameters. Row by row, as the sums of one row wait for each other while the next is warped.
+void compare(const cv::Mat& image, const cv::Point2f& guess, const Parameters& p,
+             const Reference& reference, Pixels& error, Parameters& gradient) {
+  const float x0 = guess.x + p[0], y0 = guess.y + p[1];
+  const bool is_shift = p.segment<4>(2).isZero(0);
+  if (is_shift) cut_out<kWindow>(image, x0 - kHalf, y0 - kHalf, error.data());
+  const float* const pixels = image.ptr<float>();
+  const auto step = static_cast<int>(image.step1());
+  const Template& templ = reference.templ;
+  for (int v = -kHalf; v <= kHalf; ++v) {
+    using Row = Eigen::Array<float, kWindow, 1>;
+    using Part = Eigen::Map<const Row>;
+    const int first = (v + kHalf) * kWindow;
+    if (!is_shift) {
+      const auto y = static_cast<float>(v);
+      const WarpedRow row(x0 + p[3] * y, y0 + y + p[5] * y, 1 + p[2], p[4]);
+      row.sample(pixels, step, &error[first]);
+    }
+    Eigen::Map<Row> differences(&error[first]);
+    differences = Part(&reference.weight[first]) * (differences - Part(&templ.gray[first]) -
+                                                    p[6] * Part(&templ.contrast[first]) - p[7]);
+    for (int k = first; k < first + kWindow; ++k) gradient += error[k] * templ.jacobian.col(k);
+  }
+}
+
+std::optional<Alignment> align_from(const cv::Mat& image, const cv::Point2f& guess,
+                                    const Reference& reference) {
   Parameters p = Parameters::Zero();
-  Pixels warped;
-  const Values gray(templ.gray.data(), kNumPixels), contrast(templ.contrast.data(), kNumPixels);
-  float residual = 0;
+  Pixels error;
   for (int i = 0; i < kMaxIterations; ++i) {
-    if (!warp(to, guess, p, warped)) return std::nullopt;
-    Parameters gradient = prior.cwiseProduct(p);
-    Eigen::Map<Eigen::ArrayXf> error(warped.data(), kNumPixels);
-    error = weight * (error - gray - p[6] * contrast - p[7]);
-    for (int k = 0; k < kNumPixels; ++k) gradient += error[k] * templ.jacobian.col(k);
-    residual = error.abs().sum();
-    const Parameters step = solver.solve(gradient);
+    if (!is_inside(image, guess, p)) return std::nullopt;
+    Parameters gradient = reference.prior.cwiseProduct(p);
+    compare(image, guess, p, reference, error, gradient);
+    const Parameters step = reference.solver.solve(gradient);
     p -= step;
     if (!(p.head<2>().norm() < kMaxCorrection_px)) return std::nullopt;
     if (!(p.segment<4>(2).cwiseAbs().maxCoeff() < kMaxAffine)) return std::nullopt;
     if (step.head<2>().norm() < kSettled_px) break;
   }
-  const Eigen::Matrix<float, 8, 2> by_shift = solver.solve(Matrix8f::Identity().leftCols<2>());
-  return Alignment{guess + cv::Point2f(p[0], p[1]), residual / weight_sum,
+  const float residual = Values(error.data(), kNumPixels).abs().sum();
+  const Eigen::Matrix<float, 8, 2> by_shift =
+      reference.solver.solve(Matrix8f::Identity().leftCols<2>());
+  return Alignment{guess + cv::Point2f(p[0], p[1]), residual / reference.weight_sum,
                    sq(kGraySigma) * by_shift.topRows<2>()};
+}
+
+}  // namespace
+
+std::vector<float> own_pixels(const SurfaceMap& surfaces, std::int16_t label,
+                              const cv::Point2f& point) {
+  if (surfaces.label.empty() || label == SurfaceMap::kUnknown) return {};
+  const int left = cvRound(point.x) - kHalf, top = cvRound(point.y) - kHalf;
+  const int first = std::max(0, -left), end = std::min(kWindow, surfaces.label.cols - left);
+  std::vector<float> own;
+  for (int v = std::max(0, -top); v < std::min(kWindow, surfaces.label.rows - top); ++v) {
+    const std::int16_t* const row = surfaces.label.ptr<std::int16_t>(top + v);
+    for (int u = first; u < end; ++u) {
+      const std::int16_t here = row[left + u];
+      if (here == label || here == SurfaceMap::kUnknown) continue;
+      own.resize(kNumPixels, 1);
+      own[v * kWindow + u] = 0;
+    }
+  }
+  return own;
+}
+
+std::optional<Alignment> align_patch(const cv::Mat& from, const cv::Mat& to,
+                                     const cv::Point2f& point,
+                                     const std::vector<cv::Point2f>& guesses,
+                                     const std::vector<float>& own) {
+  Reference reference;
+  if (guesses.empty() || !make_reference(from, point, own, reference)) return std::nullopt;
+  std::optional<Alignment> best;
+  for (const cv::Point2f& guess : guesses) {
+    auto found = align_from(to, guess, reference);
+    if (found && (!best || found->residual < best->residual)) best = std::move(found);
+  }
+  return best;
+}
+
+std::optional<Alignment> align_patch(const cv::Mat& from, const cv::Mat& to,
+                                     const cv::Point2f& point, const cv::Point2f& guess,
+                                     const std::vector<float>& own) {
+  return align_patch(from, to, point, std::vector<cv::Point2f>{guess}, own);
 }
 
 }  // namespace lidar_upsampling

@@ -42,6 +42,12 @@ struct Alignment {
                                                    const cv::Point2f& guess,
                                                    const std::vector<float>& own = {});
 
+/// @brief From each of several guesses, which takes less time: what then looks most alike.
+[[nodiscard]] std::optional<Alignment> align_patch(const cv::Mat& from, const cv::Mat& to,
+                                                   const cv::Point2f& point,
+                                                   const std::vector<cv::Point2f>& guesses,
+                                                   const std::vector<float>& own = {});
+
 /// @brief What of such a patch shows its own surface; all of it, if `label` is kUnknown.
 /// @return empty if all does.
 [[nodiscard]] std::vector<float> own_pixels(const SurfaceMap& surfaces, std::int16_t label,
