@@ -26,7 +26,7 @@ struct RowBeams {
 /// The patches that beams may hit, and how they have moved.
 struct CastScene {
   const BeamPattern& pattern;
-  const std::vector<Patch>& patches;
+  const PatchRefs& patches;
   const PatchMotions& motions;
   const std::vector<FootprintsOfRow>& footprints;  ///< of each row whose patches they are
 };

@@ -156,7 +156,7 @@ double largest_motion(const std::vector<Eigen::Vector3f>& points, const PatchMot
 }
 
 FootprintsOfRow find_footprints(const BeamRow& own, const BeamPattern& pattern,
-                                const Columns& columns, const std::vector<Patch>& patches,
+                                const Columns& columns, const PatchRefs& patches,
                                 const PatchMotions& motions, float reach) {
   FootprintsOfRow prints{own.origin(), std::vector<std::vector<Footprint>>(pattern.num_rows())};
   Coverage coverage(pattern, own);

@@ -44,8 +44,7 @@ struct FootprintsOfRow {
 /// @param pattern of the beams that are to be covered, which may be another scan's.
 /// @param reach of patches, 1: to their edges.
 [[nodiscard]] FootprintsOfRow find_footprints(const BeamRow& own, const BeamPattern& pattern,
-                                              const Columns& columns,
-                                              const std::vector<Patch>& patches,
+                                              const Columns& columns, const PatchRefs& patches,
                                               const PatchMotions& motions, float reach);
 
 }  // namespace lidar_upsampling

@@ -25,6 +25,25 @@ struct Patch {
   }
 };
 
+/// @brief Patches that lie elsewhere, of one scan or several, without copies.
+class PatchRefs {
+ public:
+  PatchRefs() = default;
+  // NOLINTNEXTLINE(google-explicit-constructor): a view of all of them
+  PatchRefs(const std::vector<Patch>& patches) { append(patches); }
+
+  void append(const std::vector<Patch>& patches) {
+    refs_.reserve(refs_.size() + patches.size());
+    for (const Patch& patch : patches) refs_.push_back(&patch);
+  }
+  void replace(int i, const Patch& patch) { refs_[i] = &patch; }
+  [[nodiscard]] const Patch& operator[](int i) const { return *refs_[i]; }
+  [[nodiscard]] std::size_t size() const { return refs_.size(); }
+
+ private:
+  std::vector<const Patch*> refs_;
+};
+
 /// When neighbouring points are of one surface.
 struct PatchOptions {
   double max_step_m = 0.15;          ///< difference in range, where there is nothing else to go by

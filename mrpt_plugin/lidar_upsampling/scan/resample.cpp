@@ -18,12 +18,22 @@
 
 namespace lidar_upsampling {
 
+namespace {
+
+// What beams may hit: patches of one scan or two, and the rows that they are of.
+struct JoinedPatches {
+  PatchRefs patches;
+  std::vector<BeamRow> rows;
+  std::vector<std::vector<Patch>> anew;  // of each row, what `patches` has in place of a scan's own
+};
+
+}  // namespace
+
 /// All that does not change between the images of a key scan.
 struct BeamResampler::Sensor {
   Sensor(const LidarScan& key, BeamPattern found, const ResampleOptions& options);
 
-  void join(const PatchMotions& motions, int at_rest, std::vector<Patch>& all,
-            std::vector<BeamRow>& rows) const;
+  void join(const PatchMotions& motions, int at_rest, JoinedPatches& joined) const;
   // @param other whose patches come after the own ones; null: none.
   void take_hits(const PatchMotions& motions, const std::vector<std::vector<BeamHit>>& hits,
                  const Sensor* other, VirtualScan& result) const;
@@ -72,13 +82,10 @@ std::vector<int> inverse(const std::vector<int>& order) {
   return result;
 }
 
-// Makes those patches anew that a mover's outline changes: its own, and those beside it.
-// @param first of the scan's patches among all. @param at_rest the motion of its static scene.
-void replace_at_movers(const PatchMaker& maker, const BeamPattern& pattern,
-                       const PatchMotions& motions, int first, int at_rest,
-                       std::vector<Patch>& patches) {
-  const std::vector<BeamNeighbours>& neighbours = maker.neighbours();
-  const int* const motion = motions.of_patch.data() + first;
+// Those patches that a mover's outline changes: its own, and those beside it.
+// @param motion of each patch. @param at_rest the motion of the static scene.
+std::vector<std::uint8_t> changed_by_movers(const std::vector<BeamNeighbours>& neighbours,
+                                            const int* motion, int at_rest) {
   std::vector<std::uint8_t> is_changed(neighbours.size(), 0);
   for (int i = 0; i < static_cast<int>(is_changed.size()); ++i) {
     if (motion[i] <= at_rest) continue;
@@ -91,9 +98,7 @@ void replace_at_movers(const PatchMaker& maker, const BeamPattern& pattern,
         is_changed[other] = 1;
       }
   }
-  for (int row = 0; row < pattern.num_rows(); ++row)
-    for (int i = pattern.rows[row].begin; i < pattern.rows[row].end; ++i)
-      if (is_changed[i] != 0) patches[first + i] = maker.make(row, i, motion);
+  return is_changed;
 }
 
 // What the beams of all rows hit; beams that hit nothing are left out.
@@ -182,16 +187,28 @@ BeamResampler::BeamResampler(const LidarScan& key_scan, const ResampleOptions& o
 BeamResampler::~BeamResampler() = default;
 
 // Adds these patches, those at movers made anew, and their rows, to those that are there already.
-// @param at_rest the motion of the static scene.
-void BeamResampler::Sensor::join(const PatchMotions& motions, int at_rest, std::vector<Patch>& all,
-                                 std::vector<BeamRow>& rows) const {
-  const int first = static_cast<int>(all.size());
-  all.insert(all.end(), patches.begin(), patches.end());
-  replace_at_movers(maker, pattern, motions, first, at_rest, all);
+void BeamResampler::Sensor::join(const PatchMotions& motions, int at_rest,
+                                 JoinedPatches& joined) const {
+  const auto first = static_cast<int>(joined.patches.size());
+  const std::size_t first_row = joined.rows.size();
+  joined.patches.append(patches);
+  joined.anew.resize(first_row + pattern.rows.size());
+  const int* const motion = motions.of_patch.data() + first;
+  const auto is_changed = changed_by_movers(maker.neighbours(), motion, at_rest);
+  tbb::parallel_for(0, pattern.num_rows(), [&](int r) {
+    const BeamRow& row = pattern.rows[r];
+    std::vector<Patch>& anew = joined.anew[first_row + r];
+    anew.reserve(std::count(is_changed.data() + row.begin, is_changed.data() + row.end, 1));
+    for (int i = row.begin; i < row.end; ++i) {
+      if (is_changed[i] == 0) continue;
+      anew.push_back(maker.make(r, i, motion));
+      joined.patches.replace(first + i, anew.back());
+    }
+  });
   for (BeamRow row : pattern.rows) {
     row.begin += first;
     row.end += first;
-    rows.push_back(row);
+    joined.rows.push_back(row);
   }
 }
 
@@ -204,9 +221,8 @@ VirtualScan BeamResampler::resample(VirtualScan moved, const OtherView* other) c
   if (largest_motion(sensor_->scan.points, motions) < options_.min_motion_m) return moved;
   moved.resampling = Resampling::done;
 
-  std::vector<Patch> patches;
-  std::vector<BeamRow> rows;
-  sensor_->join(motions, 0, patches, rows);
+  JoinedPatches joined;
+  sensor_->join(motions, 0, joined);
   const Sensor* second = other == nullptr ? nullptr : other->scan.sensor_.get();
   const bool needs_intensity = !sensor_->scan.intensity.empty();
   if (second != nullptr && needs_intensity && second->scan.intensity.empty()) second = nullptr;
@@ -214,17 +230,19 @@ VirtualScan BeamResampler::resample(VirtualScan moved, const OtherView* other) c
     check(other->scan.num_points_, other->moved);
     const auto at_rest = static_cast<int>(motions.forth.size());
     motions.append(motions_of(second->position, other->moved));
-    second->join(motions, at_rest, patches, rows);
+    second->join(motions, at_rest, joined);
   }
 
   const BeamPattern& pattern = sensor_->pattern;
   // As far from its centre as a patch may be hit, 1: its edge.
   const auto reach = static_cast<float>(std::max(1 + options_.overlap, options_.max_gap));
-  std::vector<FootprintsOfRow> footprints(rows.size());
-  tbb::parallel_for(std::size_t{0}, rows.size(), [&](std::size_t i) {
-    footprints[i] = find_footprints(rows[i], pattern, sensor_->columns, patches, motions, reach);
+  std::vector<FootprintsOfRow> footprints(joined.rows.size());
+  tbb::parallel_for(std::size_t{0}, footprints.size(), [&](std::size_t i) {
+    footprints[i] =
+        find_footprints(joined.rows[i], pattern, sensor_->columns, joined.patches, motions, reach);
   });
-  const auto hits = cast_all({pattern, patches, motions, footprints}, sensor_->beams, options_);
+  const auto hits =
+      cast_all({pattern, joined.patches, motions, footprints}, sensor_->beams, options_);
   sensor_->take_hits(motions, hits, second, moved);
   return moved;
 }
