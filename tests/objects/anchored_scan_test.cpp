@@ -57,6 +57,10 @@ TEST_F(PostBeforeAWall, is_itself_where_it_is_and_the_wall_is_none_of_it) {
   EXPECT_EQ(surfaces_.label.at<std::int16_t>(20, cvRound(middle_)), SurfaceMap::kUnknown);
 }
 
+TEST_F(PostBeforeAWall, leaves_untold_what_no_patch_about_it_shows) {
+  EXPECT_EQ(surfaces_.label.at<std::int16_t>(150, cvRound(middle_ + 50)), SurfaceMap::kUnknown);
+}
+
 TEST_F(PostBeforeAWall, hides_what_is_behind_it_as_far_as_its_edge_may_reach) {
   std::vector<ProjectedPoint> wall;  // as an object, too
   for (std::size_t i = 0; i < anchored_.points.size(); ++i)

@@ -5,8 +5,10 @@
 #include <gtest/gtest.h>
 
 #include <map>
+#include <random>
 
 #include "lidar_upsampling/objects/beam_step.h"
+#include "lidar_upsampling/objects/column_grid.h"
 #include "lidar_upsampling/objects/scene_segments.h"
 #include "street_scan.h"
 
@@ -162,6 +164,30 @@ TEST(SegmentScan, finds_each_car_once) {
     }
     EXPECT_EQ(clusters_of_car.size(), cars.size()) << rings;
     for (const auto& [car, count] : clusters_of_car) EXPECT_EQ(count, 1) << "car " << car;
+  }
+}
+
+TEST(ColumnGrid, finds_all_that_lie_nearer_and_their_distances) {
+  std::mt19937 random(1);
+  std::uniform_real_distribution<float> place(-3, 3);
+  std::vector<Eigen::Vector3f> points(500);
+  for (Eigen::Vector3f& point : points) point = {place(random), place(random), place(random)};
+  const ColumnGrid grid(points, 0.5F);
+  for (const float reach : {0.3F, 0.5F, 1.7F}) {
+    for (int at = 0; at < static_cast<int>(points.size()); ++at) {
+      const Eigen::Vector3f& query = points[grid.point[at]];
+      std::map<int, float> found, expected;
+      grid.for_each_within(at, reach * reach, [&](int point, float sq_distance) {
+        EXPECT_TRUE(found.emplace(point, sq_distance).second);
+      });
+      for (int i = 0; i < static_cast<int>(points.size()); ++i)
+        if (const float sq_distance = (points[i] - query).squaredNorm();
+            sq_distance < reach * reach)
+          expected[i] = sq_distance;
+      ASSERT_EQ(found.size(), expected.size());
+      for (const auto& [point, sq_distance] : expected)
+        EXPECT_NEAR(found.at(point), sq_distance, 1e-5);
+    }
   }
 }
 

@@ -150,6 +150,13 @@ TEST(DepthEdges, silhouettes_are_flagged_on_both_sides_and_surfaces_are_not) {
 
 TEST(DepthEdges, no_points_are_no_edges) { EXPECT_TRUE(mark_depth_edges({}).empty()); }
 
+TEST(Visibility, both_at_once_are_what_each_is_alone) {
+  const View view = view_of(Scene{}, {0.4, -0.5, -0.3});
+  const Visibility both = mark_visibility(view.points);
+  EXPECT_EQ(both.hidden, mark_occluded(view.points));
+  EXPECT_EQ(both.on_edge, mark_depth_edges(view.points));
+}
+
 TEST(Visibility, a_neighbourhood_of_no_size_is_refused) {
   EXPECT_THROW((void)mark_occluded({}, {0, 7}), std::invalid_argument);
   EXPECT_THROW((void)mark_depth_edges({}, {4, -1}), std::invalid_argument);
