@@ -4,33 +4,70 @@
 
 #include <mrpt/obs/CObservationImage.h>
 
+#include <algorithm>
 #include <stdexcept>
 
 #include "lidar_upsampling/io/carriers.h"
 #include "lidar_upsampling/io/images.h"
-#include "streams.h"
 
 namespace lidar_upsampling {
 
 using mrpt::obs::CObservation;
 using mrpt::obs::CObservationImage;
 
+namespace {
+constexpr double kEgoMemory_s = 5;
+}  // namespace
+
 Densification::Densification(const DensifyJob& job, const LogIndex& index, DensifyReport& report)
     : job_(job), report_(report), upsampler_(job.config) {
   const StreamSelection streams = select_streams(index, job.config, labels_of_calibrated(job.rig));
   lidar_label_ = streams.lidar->label;
-  std::vector<std::string> labels;
-  for (const StreamInfo* camera : streams.cameras) labels.push_back(camera->label);
-  camera_labels_ = {labels.begin(), labels.end()};
+  take_streams(streams);
+  num_streams_ = index.streams.size();
+  num_stamps_ = streams.lidar->stamps.size();
   upsampler_.expect_scans(streams.lidar->stamps);
-  upsampler_.expect_cameras(labels);
-  for (const PoseSample& sample : index.poses) upsampler_.ego_motion().add_pose(sample);
-  for (const PoseSample& sample : index.odometry) upsampler_.ego_motion().add_odometry(sample);
-  for (const GnssSample& sample : index.gnss) upsampler_.ego_motion().add_gnss(sample);
+  take_ego({index.poses, index.odometry, index.gnss});
   report.camera_time_offset_ms = job.config.timing.camera_time_offset_ms;
   report.ego_source = to_string(upsampler_.ego_motion().source());
   if (!job.pictures.empty()) pictures_.emplace(job.pictures);
-  if (job.config.mode == "offline") ahead_.emplace(job.input, lidar_label_, job.rig);
+  if (job.config.mode == "offline") ahead_.emplace(lidar_label_, job.rig);
+}
+
+void Densification::take_streams(const StreamSelection& streams) {
+  std::vector<std::string> labels;
+  for (const StreamInfo* camera : streams.cameras) labels.push_back(camera->label);
+  camera_labels_ = {labels.begin(), labels.end()};
+  upsampler_.expect_cameras(labels);
+}
+
+void Densification::take_ego(const EgoNews& news) {
+  EgoMotion& ego = upsampler_.ego_motion();
+  for (const PoseSample& sample : news.poses) ego.add_pose(sample);
+  for (const PoseSample& sample : news.odometry) ego.add_odometry(sample);
+  for (const GnssSample& sample : news.gnss) ego.add_gnss(sample);
+}
+
+void Densification::learn(LogIndexer& indexer) {
+  learns_ = true;
+  const LogIndex& index = indexer.so_far();
+  if (index.streams.size() > num_streams_)
+    take_streams(select_again(index, job_.config, labels_of_calibrated(job_.rig)));
+  num_streams_ = index.streams.size();
+
+  EgoNews news = indexer.take_ego();
+  if (!job_.config.pose_file.path.empty()) news.poses.clear();
+  take_ego(news);
+  const std::string source = to_string(upsampler_.ego_motion().source());
+  if (source != report_.ego_source)
+    report_.warn("ego-motion by " + source + " comes up late in the log, until then it is by " +
+                 std::exchange(report_.ego_source, source));
+
+  constexpr std::ptrdiff_t kMost = 1000;  // those before are past
+  const std::vector<Stamp>& stamps = index.find(lidar_label_, StreamKind::lidar)->stamps;
+  if (stamps.size() == num_stamps_) return;
+  num_stamps_ = stamps.size();
+  upsampler_.expect_scans({std::max(stamps.begin(), stamps.end() - kMost), stamps.end()});
 }
 
 std::optional<VirtualScan> Densification::feed(const CObservation::Ptr& observation) {
@@ -58,15 +95,26 @@ std::optional<VirtualScan> Densification::feed_scan(const CObservation::Ptr& obs
     return {};
   }
   apply(job_.rig, *scan);
+  if (learns_) upsampler_.ego_motion().forget_before(shifted(last_stamp_, -kEgoMemory_s));
+  last_stamp_ = scan->stamp;
   if (pictures_) pictures_->real_scan(*scan);
-  look_ahead();
+  expect_scans();
   return upsampler_.insert_scan(std::move(*scan));
 }
 
+void Densification::look_ahead(const RawlogEntry& entry) {
+  if (ahead_) ahead_->add(entry);
+}
+
+bool Densification::wants_scans() const {
+  if (!ahead_) return false;
+  return num_expected_ + ahead_->size() < report_.num_scans + 1 + job_.config.scans_ahead;
+}
+
 // The scan at hand is the first of those ahead.
-void Densification::look_ahead() {
+void Densification::expect_scans() {
   if (!ahead_) return;
-  const int wanted = report_.num_scans + job_.config.scans_ahead;
+  const std::size_t wanted = report_.num_scans + job_.config.scans_ahead;
   for (; num_expected_ < wanted; ++num_expected_) {
     auto scan = ahead_->next();
     if (!scan) return;

@@ -8,12 +8,14 @@
 #include <set>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "densify.h"
 #include "lidar_upsampling/io/log_index.h"
 #include "lidar_upsampling/upsampler.h"
 #include "pictures.h"
 #include "scans_ahead.h"
+#include "streams.h"
 
 namespace lidar_upsampling {
 
@@ -23,8 +25,17 @@ class Densification {
  public:
   /// @param job only its settings and its folder of pictures are used. Must outlive the run, as the
   /// report must.
-  /// @param index of the whole log. @throw std::runtime_error as select_streams()
+  /// @param index of the whole log, or of its beginning. @throw std::runtime_error as
+  /// select_streams()
   Densification(const DensifyJob& job, const LogIndex& index, DensifyReport& report);
+
+  /// @brief Takes what more has been read of a log, ahead of its turn.
+  /// @throw std::runtime_error streams have come up that leave none to choose.
+  void learn(LogIndexer& indexer);
+  /// @brief With `mode = offline`, takes the scans of an entry of the log, ahead of its turn.
+  void look_ahead(const RawlogEntry& entry);
+  /// Whether the next scan needs entries from further ahead.
+  [[nodiscard]] bool wants_scans() const;
 
   /// @return the virtual scan that became due: the observation's own, or a waiting one of before.
   [[nodiscard]] std::optional<VirtualScan> feed(const mrpt::obs::CObservation::Ptr& observation);
@@ -37,7 +48,9 @@ class Densification {
 
  private:
   std::optional<VirtualScan> feed_scan(const mrpt::obs::CObservation::Ptr& observation);
-  void look_ahead();
+  void take_streams(const StreamSelection& streams);
+  void take_ego(const EgoNews& news);
+  void expect_scans();
   std::optional<VirtualScan> feed_image(mrpt::obs::CObservation& observation);
   std::optional<VirtualScan> noted(std::optional<VirtualScan> scan);
 
@@ -46,10 +59,13 @@ class Densification {
   LidarUpsampler upsampler_;
   mrpt::obs::CObservation::Ptr last_real_;
   std::string lidar_label_;
+  Stamp last_stamp_;                              ///< of a scan
+  bool learns_ = false;                           ///< of the log while it goes by
+  std::size_t num_streams_ = 0, num_stamps_ = 0;  ///< of the log, of the LiDAR: that are known
   std::set<std::string> camera_labels_;
   std::optional<Pictures> pictures_;
   std::optional<ScansAhead> ahead_;  ///< with mode = offline
-  int num_expected_ = 0;             ///< scans that were told ahead
+  std::size_t num_expected_ = 0;     ///< scans that were told ahead
 };
 
 }  // namespace lidar_upsampling

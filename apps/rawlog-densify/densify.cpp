@@ -5,39 +5,19 @@
 #include <mrpt/obs/CSensoryFrame.h>
 
 #include <optional>
-#include <stdexcept>
 #include <utility>
 #include <vector>
 
 #include "densification.h"
-#include "lidar_upsampling/front_end/pose_input.h"
 #include "lidar_upsampling/front_end/virtual_observations.h"
-#include "lidar_upsampling/io/log_index.h"
 #include "lidar_upsampling/io/rawlog_stream.h"
 #include "lidar_upsampling/io/sensory_frame.h"
-#include "lidar_upsampling/stopwatch.h"
+#include "log_input.h"
 
 namespace lidar_upsampling {
 namespace {
 
 using mrpt::obs::CObservation;
-
-/// Times its scope for the report.
-class Timed {
- public:
-  Timed(DensifyReport& report, const char* stage) : report_(report), watch_(times_, stage) {}
-  ~Timed() {
-    watch_.stop();
-    report_.add(times_);
-  }
-  Timed(const Timed&) = delete;
-  Timed& operator=(const Timed&) = delete;
-
- private:
-  DensifyReport& report_;
-  std::vector<StageTime> times_;
-  Stopwatch watch_;
-};
 
 // What goes out around one observation of the log.
 struct Neighbours {
@@ -64,6 +44,8 @@ class Insertion {
     if (!scan) return {};
     return out(*scan);
   }
+
+  [[nodiscard]] Densification& run() { return run_; }
 
  private:
   std::vector<CObservation::Ptr> out(const VirtualScan& scan) {
@@ -119,11 +101,6 @@ class Output {
   RawlogWriter writer_;
 };
 
-std::optional<RawlogEntry> read_next(RawlogReader& reader, DensifyReport& report) {
-  const Timed reading(report, "reading");
-  return reader.next();
-}
-
 void densify_entry(const RawlogEntry& entry, Insertion& run, Output& output) {
   if (dynamic_cast<mrpt::obs::CSensoryFrame*>(entry.object.get()) != nullptr) {
     output.write(densified_frame(entry, run));
@@ -160,22 +137,14 @@ DensifyReport densify(const DensifyJob& job, const std::function<void(double)>& 
   report.hindsight = job.config.mode == "offline";
   report.detector = detector_name(job.config);
   Output output(job, report);
-
-  constexpr double kIndexShare = 0.1;  // of the whole work
-  LogIndex index = index_log(job.input, [&](double share) { tell(kIndexShare * share); });
-  if (index.corruption && !job.accept_truncated)
-    throw std::runtime_error(*index.corruption +
-                             "; --accept-truncated densifies what comes before");
-  take_poses_from_file(job.config, job.rig, index);
+  constexpr double kIndexShare = 0.1;  // of the whole work, where there is need of one
+  LogInput input(job, report);
+  double done = 0;
+  const LogIndex index = input.index([&](double share) { tell(done = kIndexShare * share); });
   Insertion run(job, index, report);
-  if (index.corruption) report.warn(*index.corruption);
-
-  RawlogReader reader(job.input);
-  for (; report.num_objects_in < index.num_objects; ++report.num_objects_in) {
-    const auto entry = read_next(reader, report);
-    if (!entry) break;
+  for (; const auto entry = input.next(run.run()); ++report.num_objects_in) {
     densify_entry(*entry, run, output);
-    tell(kIndexShare + (1 - kIndexShare) * reader.progress());
+    tell(done + (1 - done) * input.progress());
   }
   for (const auto& observation : run.flush()) output.write(*observation);
   output.commit();

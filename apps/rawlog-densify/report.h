@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "lidar_upsampling/scene/object_scene.h"
+#include "lidar_upsampling/stopwatch.h"
 #include "lidar_upsampling/types.h"
 
 namespace lidar_upsampling {
@@ -45,6 +46,23 @@ struct DensifyReport {
   void add(const VirtualScan& scan, bool keep_rows);
   void add(const std::vector<StageTime>& times);
   void warn(const std::string& text);
+};
+
+/// Times its scope for a report.
+class Timed {
+ public:
+  Timed(DensifyReport& report, const char* stage) : report_(report), watch_(times_, stage) {}
+  ~Timed() {
+    watch_.stop();
+    report_.add(times_);
+  }
+  Timed(const Timed&) = delete;
+  Timed& operator=(const Timed&) = delete;
+
+ private:
+  DensifyReport& report_;
+  std::vector<StageTime> times_;
+  Stopwatch watch_;
 };
 
 /// @brief Everything, for programs: counts, each stage's median, p95 and total, a row per object

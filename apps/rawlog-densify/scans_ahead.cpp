@@ -4,41 +4,36 @@
 
 #include <mrpt/obs/CSensoryFrame.h>
 
+#include <stdexcept>
+
 #include "lidar_upsampling/io/carriers.h"
-#include "lidar_upsampling/io/sensory_frame.h"
 
 namespace lidar_upsampling {
 
 using mrpt::obs::CObservation;
 
 std::optional<LidarScan> ScansAhead::next() {
-  while (read_.empty() && !at_end_) read_on();
   if (read_.empty()) return {};
   LidarScan scan = std::move(read_.front());
   read_.pop_front();
   return scan;
 }
 
-void ScansAhead::read_on() {
-  std::vector<RawlogEntry> entries;
+void ScansAhead::add(const RawlogEntry& entry) {
+  if (const auto* const frame = dynamic_cast<mrpt::obs::CSensoryFrame*>(entry.object.get()))
+    for (const CObservation::Ptr& observation : *frame) add_observation(*observation);
+  else if (const auto* const observation = dynamic_cast<CObservation*>(entry.object.get()))
+    add_observation(*observation);
+}
+
+void ScansAhead::add_observation(const CObservation& observation) {
+  if (observation.sensorLabel != lidar_label_ || !is_lidar_scan(observation)) return;
   try {
-    if (auto entry = reader_.next()) entries.push_back(std::move(*entry));
-  } catch (const CorruptRawlog&) {
-  }
-  at_end_ = entries.empty();
-  if (!at_end_ && dynamic_cast<mrpt::obs::CSensoryFrame*>(entries[0].object.get()) != nullptr)
-    entries = split_frame(entries[0]);
-  for (const RawlogEntry& entry : entries) {
-    const auto observation = std::dynamic_pointer_cast<CObservation>(entry.object);
-    if (!observation || observation->sensorLabel != lidar_label_ || !is_lidar_scan(*observation))
-      continue;
-    try {
-      auto scan = scan_from_observation(*observation);
-      if (!scan || scan->points.empty()) continue;
-      apply(rig_, *scan);
-      read_.push_back(std::move(*scan));
-    } catch (const std::runtime_error&) {  // told when its own turn comes
-    }
+    auto scan = scan_from_observation(observation);
+    if (!scan || scan->points.empty()) return;
+    apply(rig_, *scan);
+    read_.push_back(std::move(*scan));
+  } catch (const std::runtime_error&) {  // told when its own turn comes
   }
 }
 

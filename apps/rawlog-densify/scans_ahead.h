@@ -2,9 +2,12 @@
 // Copyright (c) 2026, the lidar_upsampling authors
 #pragma once
 
+#include <mrpt/obs/CObservation.h>
+
 #include <deque>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "lidar_upsampling/io/rawlog_stream.h"
 #include "lidar_upsampling/io/rig_overrides.h"
@@ -12,25 +15,26 @@
 
 namespace lidar_upsampling {
 
-/// @brief Reads the scans of a log a little before the log's own turn: what a run that is not live
-/// may know. Unreadable ones are passed over; a broken end of the log is its end.
+/// @brief The scans of a log a little before the log's own turn: what a run that is not live may
+/// know. Unreadable ones are passed over.
 class ScansAhead {
  public:
-  /// @throw std::runtime_error the file cannot be opened.
-  ScansAhead(const std::string& path, std::string lidar_label, const RigOverrides& rig)
-      : reader_(path), lidar_label_(std::move(lidar_label)), rig_(rig) {}
+  ScansAhead(std::string lidar_label, const RigOverrides& rig)
+      : lidar_label_(std::move(lidar_label)), rig_(rig) {}
 
-  /// @return the next scan, none at the end of the log.
+  /// An entry of the log, ahead of its turn.
+  void add(const RawlogEntry& entry);
+  /// @return the next scan, none if no entry with one has been added.
   [[nodiscard]] std::optional<LidarScan> next();
+  /// Scans that next() has not given yet.
+  [[nodiscard]] std::size_t size() const { return read_.size(); }
 
  private:
-  void read_on();
+  void add_observation(const mrpt::obs::CObservation& observation);
 
-  RawlogReader reader_;
   std::string lidar_label_;
   const RigOverrides& rig_;
   std::deque<LidarScan> read_;
-  bool at_end_ = false;
 };
 
 }  // namespace lidar_upsampling

@@ -90,10 +90,16 @@ std::vector<std::string> labels_of_calibrated(const RigOverrides& rig) {
 
 StreamSelection select_streams(const LogIndex& index, const Config& config,
                                const std::vector<std::string>& calibrated_elsewhere) {
+  const StreamSelection selection = select_again(index, config, calibrated_elsewhere);
+  for (const StreamInfo* camera : selection.cameras) check_clocks(index, *selection.lidar, *camera);
+  return selection;
+}
+
+StreamSelection select_again(const LogIndex& index, const Config& config,
+                             const std::vector<std::string>& calibrated_elsewhere) {
   StreamSelection selection;
   selection.lidar = select_lidar(index, config);
   selection.cameras = select_cameras(index, config, calibrated_elsewhere);
-  for (const StreamInfo* camera : selection.cameras) check_clocks(index, *selection.lidar, *camera);
   if (index.find(config.virtual_label(selection.lidar->label), StreamKind::lidar) != nullptr)
     throw std::runtime_error(
         index.path + ": it already holds virtual scans labelled '" +

@@ -27,4 +27,9 @@ struct StreamSelection {
 [[nodiscard]] StreamSelection select_streams(const LogIndex& index, const Config& config,
                                              const std::vector<std::string>& calibrated_elsewhere);
 
+/// @brief The same of a log of which some has been read, once all that is needed is there: clocks
+/// are not compared.
+[[nodiscard]] StreamSelection select_again(const LogIndex& index, const Config& config,
+                                           const std::vector<std::string>& calibrated_elsewhere);
+
 }  // namespace lidar_upsampling

@@ -16,7 +16,8 @@ namespace lidar_upsampling {
 
 /// A vehicle at rest before a wall: scans at 10 Hz, images at 30 Hz, poses with each image.
 struct HandMadeLog {
-  int num_images = 10;
+  int num_instants = 10;
+  int num_images = num_instants;
   bool calibrated = true;
   double image_delay_s = 0;  ///< added to the images' stamps
   int external_image = -1;   ///< the one that lies in a file
@@ -67,7 +68,7 @@ inline CameraImage still_picture(const HandMadeLog& log, int image) {
 
 inline void write_hand_made(const std::string& path, const HandMadeLog& log = {}) {
   RawlogWriter writer(path, false);
-  for (int i = 0; i < 10; ++i) {
+  for (int i = 0; i < log.num_instants; ++i) {
     mrpt::obs::CObservationRobotPose pose;
     pose.sensorLabel = "POSE";
     pose.timestamp = hand_made_stamp(i);

@@ -6,6 +6,7 @@
 #include <mrpt/obs/CActionRobotMovement2D.h>
 #include <mrpt/obs/CActionRobotMovement3D.h>
 #include <mrpt/obs/CObservationComment.h>
+#include <mrpt/obs/CObservationRobotPose.h>
 
 #include <cmath>
 
@@ -70,6 +71,42 @@ TEST(EgoSamples, a_frame_is_reached_by_the_actions_before_it) {
   ASSERT_EQ(samples.odometry().size(), 1U);
   EXPECT_EQ(samples.odometry()[0].stamp, observation->timestamp);
   expect_at(samples.odometry()[0].T_world_vehicle, 2, 0, 0);
+}
+
+TEST(EgoSamples, of_each_kind_one_stream_is_taken_to_the_end_piece_by_piece) {
+  EgoSamples samples;
+  const auto add_pose = [&](const char* label, int second) {
+    mrpt::obs::CObservationRobotPose pose;
+    pose.sensorLabel = label;
+    pose.timestamp = mrpt::Clock::fromDouble(second);
+    samples.add_observation(pose);
+  };
+  EXPECT_TRUE(samples.take().poses.empty());
+  add_pose("SLOW", 1);
+  add_pose("FAST", 1);
+  add_pose("FAST", 2);
+  EXPECT_EQ(samples.take().poses.size(), 2U);
+  EXPECT_TRUE(samples.take().poses.empty());
+  for (const int second : {3, 4}) add_pose("SLOW", second);
+  add_pose("FAST", 5);
+  const EgoNews news = samples.take();
+  ASSERT_EQ(news.poses.size(), 1U);
+  EXPECT_EQ(news.poses[0].stamp, mrpt::Clock::fromDouble(5));
+}
+
+TEST(EgoSamples, actions_are_taken_as_odometry_piece_by_piece) {
+  EgoSamples samples;
+  mrpt::obs::CSensoryFrame frame;
+  auto observation = mrpt::obs::CObservationComment::Create();
+  observation->timestamp = mrpt::Clock::fromDouble(1e9);
+  frame.insert(observation);
+  for (const double x : {1, 2}) {
+    samples.add_actions(planar(1, 0, 0));
+    samples.add_frame(frame);
+    const EgoNews news = samples.take();
+    ASSERT_EQ(news.odometry.size(), 1U);
+    expect_at(news.odometry[0].T_world_vehicle, x, 0, 0);
+  }
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "lidar_upsampling/io/images.h"
 
@@ -16,11 +17,29 @@ namespace lidar_upsampling {
 namespace {
 
 template <typename Sample>
-std::vector<Sample> longest(const std::map<std::string, std::vector<Sample>>& streams) {
-  const auto it = std::max_element(
-      streams.begin(), streams.end(),
-      [](const auto& a, const auto& b) { return a.second.size() < b.second.size(); });
+using Streams = std::map<std::string, std::vector<Sample>>;
+
+template <typename Sample>
+auto longest_of(const Streams<Sample>& streams) {
+  return std::max_element(streams.begin(), streams.end(), [](const auto& a, const auto& b) {
+    return a.second.size() < b.second.size();
+  });
+}
+
+template <typename Sample>
+std::vector<Sample> longest(const Streams<Sample>& streams) {
+  const auto it = longest_of(streams);
   return it == streams.end() ? std::vector<Sample>() : it->second;
+}
+
+// @param label of the stream to take; in and out.
+template <typename Sample>
+std::vector<Sample> take_from(Streams<Sample>& streams, std::optional<std::string>& label) {
+  if (!label && !streams.empty()) label = longest_of(streams)->first;
+  std::vector<Sample> taken;
+  if (label) taken = std::move(streams[*label]);
+  streams.clear();
+  return taken;
 }
 
 Stamp gnss_stamp(const mrpt::obs::CObservationGPS& observation) {
@@ -90,5 +109,18 @@ std::vector<PoseSample> EgoSamples::odometry() const {
 }
 
 std::vector<GnssSample> EgoSamples::gnss() const { return longest(gnss_); }
+
+EgoNews EgoSamples::take() {
+  if (!taken_odometry_ && !takes_actions_)
+    takes_actions_ = from_actions_.size() > longest(odometry_).size();
+  EgoNews news;
+  news.poses = take_from(poses_, taken_poses_);
+  if (takes_actions_) odometry_.clear();
+  news.odometry = take_from(odometry_, taken_odometry_);
+  if (takes_actions_) news.odometry = std::move(from_actions_);
+  from_actions_.clear();
+  news.gnss = take_from(gnss_, taken_gnss_);
+  return news;
+}
 
 }  // namespace lidar_upsampling

@@ -33,6 +33,12 @@ class ActionOdometry {
   std::optional<Pose> T_world_vehicle_;
 };
 
+/// Samples of one stream per kind.
+struct EgoNews {
+  std::vector<PoseSample> poses, odometry;
+  std::vector<GnssSample> gnss;
+};
+
 /// @brief Gathers what a log tells of the vehicle's motion. Streams of different labels may use
 /// different worlds, so they are kept apart, and the one with the most samples is given out.
 class EgoSamples {
@@ -47,12 +53,18 @@ class EgoSamples {
   [[nodiscard]] std::vector<PoseSample> odometry() const;
   [[nodiscard]] std::vector<GnssSample> gnss() const;
 
+  /// What has come since the last call, for a log that is used while it is read: of each kind the
+  /// stream that had the most samples at the first call that found any stays the one.
+  [[nodiscard]] EgoNews take();
+
  private:
   std::map<std::string, std::vector<PoseSample>> poses_;
   std::map<std::string, std::vector<PoseSample>> odometry_;
   std::map<std::string, std::vector<GnssSample>> gnss_;
   std::vector<PoseSample> from_actions_;
   ActionOdometry actions_;
+  std::optional<std::string> taken_poses_, taken_odometry_, taken_gnss_;  // labels
+  bool takes_actions_ = false;
 };
 
 }  // namespace lidar_upsampling

@@ -14,7 +14,6 @@
 #include <cstdio>
 
 #include "lidar_upsampling/io/carriers.h"
-#include "lidar_upsampling/io/ego_samples.h"
 #include "lidar_upsampling/io/images.h"
 #include "lidar_upsampling/io/rawlog_stream.h"
 
@@ -62,29 +61,6 @@ double median_period(const std::vector<Stamp>& stamps) {
   return median(std::move(periods));
 }
 
-void add_observation(const CObservation& observation, LogIndex& index, EgoSamples& ego) {
-  StreamInfo& stream = stream_of(observation, index.streams);
-  ++stream.count;
-  if (observation.timestamp == INVALID_TIMESTAMP) return;
-  stream.stamps.push_back(observation.timestamp);
-  ego.add_observation(observation);
-}
-
-void add(const mrpt::serialization::CSerializable& object, LogIndex& index, EgoSamples& ego) {
-  ++index.num_objects;
-  if (const auto* const observation = dynamic_cast<const CObservation*>(&object)) {
-    add_observation(*observation, index, ego);
-  } else if (const auto* const actions =
-                 dynamic_cast<const mrpt::obs::CActionCollection*>(&object)) {
-    index.has_frames = true;
-    ego.add_actions(*actions);
-  } else if (const auto* const frame = dynamic_cast<const mrpt::obs::CSensoryFrame*>(&object)) {
-    index.has_frames = true;
-    ego.add_frame(*frame);
-    for (const auto& in_frame : *frame) add_observation(*in_frame, index, ego);
-  }
-}
-
 }  // namespace
 
 const char* to_string(StreamKind kind) {
@@ -110,24 +86,53 @@ std::vector<const StreamInfo*> LogIndex::of_kind(StreamKind kind) const {
   return found;
 }
 
+void LogIndexer::add_observation(const CObservation& observation) {
+  StreamInfo& stream = stream_of(observation, index_.streams);
+  ++stream.count;
+  if (observation.timestamp == INVALID_TIMESTAMP) return;
+  stream.stamps.push_back(observation.timestamp);
+  ego_.add_observation(observation);
+}
+
+void LogIndexer::add(const mrpt::serialization::CSerializable& object) {
+  ++index_.num_objects;
+  if (const auto* const observation = dynamic_cast<const CObservation*>(&object)) {
+    add_observation(*observation);
+  } else if (const auto* const actions =
+                 dynamic_cast<const mrpt::obs::CActionCollection*>(&object)) {
+    index_.has_frames = true;
+    ego_.add_actions(*actions);
+  } else if (const auto* const frame = dynamic_cast<const mrpt::obs::CSensoryFrame*>(&object)) {
+    index_.has_frames = true;
+    ego_.add_frame(*frame);
+    for (const auto& in_frame : *frame) add_observation(*in_frame);
+  }
+}
+
+LogIndex LogIndexer::index() const {
+  LogIndex index = index_;
+  for (StreamInfo& stream : index.streams) stream.median_period_s = median_period(stream.stamps);
+  index.poses = ego_.poses();
+  index.odometry = ego_.odometry();
+  index.gnss = ego_.gnss();
+  return index;
+}
+
 LogIndex index_log(const std::string& path, const std::function<void(double)>& progress) {
   RawlogReader reader(path);
-  LogIndex index;
-  index.path = path;
-  EgoSamples ego;
+  LogIndexer indexer(path);
+  std::optional<std::string> corruption;
   try {
     while (const auto entry = reader.next()) {
-      add(*entry->object, index, ego);
+      indexer.add(*entry->object);
       if (progress) progress(reader.progress());
     }
   } catch (const CorruptRawlog& error) {
-    if (index.num_objects == 0) throw;
-    index.corruption = error.what();
+    if (indexer.so_far().num_objects == 0) throw;
+    corruption = error.what();
   }
-  for (StreamInfo& stream : index.streams) stream.median_period_s = median_period(stream.stamps);
-  index.poses = ego.poses();
-  index.odometry = ego.odometry();
-  index.gnss = ego.gnss();
+  LogIndex index = indexer.index();
+  index.corruption = corruption;
   return index;
 }
 

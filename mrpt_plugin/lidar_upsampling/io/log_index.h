@@ -5,9 +5,11 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "lidar_upsampling/ego/ego_motion.h"
+#include "lidar_upsampling/io/ego_samples.h"
 #include "lidar_upsampling/types.h"
 
 namespace lidar_upsampling {
@@ -44,6 +46,26 @@ struct LogIndex {
   /// The stream of this label that holds scans, or images; null if there is none.
   [[nodiscard]] const StreamInfo* find(const std::string& label, StreamKind kind) const;
   [[nodiscard]] std::vector<const StreamInfo*> of_kind(StreamKind kind) const;
+};
+
+/// @brief Makes the index of a log while it is read.
+class LogIndexer {
+ public:
+  explicit LogIndexer(std::string path) { index_.path = std::move(path); }
+
+  void add(const mrpt::serialization::CSerializable& object);
+
+  /// Of all that was added but the vehicle's motion and the streams' periods.
+  [[nodiscard]] const LogIndex& so_far() const { return index_; }
+  /// Of all that was added, and whose motion was not taken.
+  [[nodiscard]] LogIndex index() const;
+  [[nodiscard]] EgoNews take_ego() { return ego_.take(); }
+
+ private:
+  void add_observation(const mrpt::obs::CObservation& observation);
+
+  LogIndex index_;
+  EgoSamples ego_;
 };
 
 /// @brief Reads a whole log once, loading nothing that is stored externally.

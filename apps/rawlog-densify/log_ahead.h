@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the lidar_upsampling authors
+#pragma once
+
+#include <deque>
+#include <optional>
+#include <string>
+
+#include "lidar_upsampling/io/log_index.h"
+#include "lidar_upsampling/io/rawlog_stream.h"
+
+namespace lidar_upsampling {
+
+/// @brief The entries of a log, each read once, and what lies a little ahead of their turn: what a
+/// run must know of the log while it goes by.
+class LogAhead {
+ public:
+  /// @param span_s how far to look ahead, by stamps, as long as that takes no more memory than
+  /// some 150 MB. @throw std::runtime_error the file cannot be opened.
+  LogAhead(const std::string& path, double span_s)
+      : reader_(path), indexer_(path), span_s_(span_s) {}
+
+  /// @brief Reads one entry more. @return it, until next() gives it away; null at the log's end.
+  /// @throw CorruptRawlog not even the first object can be read.
+  const RawlogEntry* read_on();
+
+  /// Whether the span is read; without one, whether there is an entry.
+  [[nodiscard]] bool is_full() const { return !waiting_.empty() && (spans() || is_heavy()); }
+  /// Whether all that waits spans what it was to.
+  [[nodiscard]] bool spans() const;
+  /// Whether all entries have been read, if they have not been given away.
+  [[nodiscard]] bool is_at_end() const { return is_at_end_; }
+  /// Why the log ends there, where that is not its clean end.
+  [[nodiscard]] const std::optional<std::string>& corruption() const { return corruption_; }
+
+  /// For a log of which all is known otherwise. What has been read stays.
+  void look_no_further() { span_s_ = 0; }
+
+  [[nodiscard]] std::optional<RawlogEntry> next();
+
+  /// All that has been read, but not given away.
+  [[nodiscard]] const std::deque<RawlogEntry>& waiting() const { return waiting_; }
+  [[nodiscard]] LogIndexer& indexer() { return indexer_; }
+  [[nodiscard]] double progress() const { return reader_.progress(); }
+
+ private:
+  [[nodiscard]] bool is_heavy() const;
+
+  RawlogReader reader_;
+  LogIndexer indexer_;
+  double span_s_;
+  std::deque<RawlogEntry> waiting_;
+  std::size_t weight_ = 0;  ///< of them, bytes in memory
+  std::optional<Stamp> newest_;
+  bool is_at_end_ = false;
+  std::optional<std::string> corruption_;
+};
+
+/// An observation's own stamp, or that of a frame's first one; none of what has no valid one.
+[[nodiscard]] std::optional<Stamp> stamp_of(const RawlogEntry& entry);
+
+}  // namespace lidar_upsampling

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the lidar_upsampling authors
+#include "log_input.h"
+
+#include <algorithm>
+#include <stdexcept>
+#include <utility>
+
+#include "lidar_upsampling/front_end/pose_input.h"
+#include "streams.h"
+
+namespace lidar_upsampling {
+namespace {
+
+constexpr double kMostGap_s = 2;
+
+// An instant's next pose, if it counts, and some more for observations that come late.
+double span_ahead_s(const Config& config) {
+  constexpr double kLate_s = 0.5;
+  return std::min(kMostGap_s, config.ego_motion.max_interpolation_gap_s) + kLate_s;
+}
+
+// What only a look at all of the log tells.
+bool asks_for_all(const Config& config) {
+  const PoseFileOptions& file = config.pose_file;
+  return (config.sweep.scan_time == ScanTime::azimuth && config.sweep.period_ms <= 0) ||
+         config.ego_motion.max_interpolation_gap_s > kMostGap_s ||
+         (!file.path.empty() && file.times.empty() && format_of(file) == PoseFileFormat::kitti);
+}
+
+// Whether there is the ego-motion that is asked for, and samples close by tell it.
+bool has_ego(EgoSource source, const LogIndex& index) {
+  const bool has_poses = index.poses.size() >= 2, has_odometry = index.odometry.size() >= 2;
+  switch (source) {
+    case EgoSource::automatic:
+      return has_poses || has_odometry;
+    case EgoSource::poses:
+      return has_poses;
+    case EgoSource::odometry:
+      return has_odometry;
+    case EgoSource::gnss:
+      return false;
+    case EgoSource::camera:
+    case EgoSource::none:
+      break;
+  }
+  return true;
+}
+
+void refuse_damage(const DensifyJob& job, const std::optional<std::string>& corruption) {
+  if (corruption && !job.accept_truncated)
+    throw std::runtime_error(*corruption + "; --accept-truncated densifies what comes before");
+}
+
+}  // namespace
+
+LogInput::LogInput(const DensifyJob& job, DensifyReport& report)
+    : job_(job), report_(report), log_(job.input, span_ahead_s(job.config)) {
+  while (!log_.is_full())
+    if (read_on() == nullptr) break;
+}
+
+LogIndex LogInput::index(const std::function<void(double)>& progress) {
+  auto beginning = index_of_beginning();
+  knows_all_ = !beginning || log_.is_at_end();
+  if (beginning) return std::move(*beginning);
+  log_.look_no_further();
+  LogIndex index = index_log(job_.input, progress);
+  refuse_damage(job_, index.corruption);
+  take_poses_from_file(job_.config, job_.rig, index);
+  return index;
+}
+
+// None: it does not tell enough. What is wrong with it is told of the whole log.
+std::optional<LogIndex> LogInput::index_of_beginning() {
+  LogIndex index = log_.indexer().index();
+  if (log_.is_at_end()) {
+    take_poses_from_file(job_.config, job_.rig, index);
+    return index;
+  }
+  try {
+    if (!log_.spans() || asks_for_all(job_.config)) return {};
+    take_poses_from_file(job_.config, job_.rig, index);
+    static_cast<void>(select_streams(index, job_.config, labels_of_calibrated(job_.rig)));
+  } catch (const std::exception&) {
+    return {};
+  }
+  if (!has_ego(job_.config.ego_motion.source, index)) return {};
+  return index;
+}
+
+std::optional<RawlogEntry> LogInput::next(Densification& run) {
+  for (; num_told_ < log_.waiting().size(); ++num_told_) run.look_ahead(log_.waiting()[num_told_]);
+  while (!log_.is_full() || run.wants_scans()) {
+    const RawlogEntry* const entry = read_on();
+    if (entry == nullptr) break;
+    if (!knows_all_) run.learn(log_.indexer());
+    run.look_ahead(*entry);
+    ++num_told_;
+  }
+  auto entry = log_.next();
+  if (entry) --num_told_;
+  return entry;
+}
+
+const RawlogEntry* LogInput::read_on() {
+  if (log_.is_at_end()) return nullptr;
+  const Timed reading(report_, "reading");
+  const RawlogEntry* const entry = log_.read_on();
+  refuse_damage(job_, log_.corruption());
+  if (log_.corruption()) report_.warn(*log_.corruption());
+  return entry;
+}
+
+}  // namespace lidar_upsampling

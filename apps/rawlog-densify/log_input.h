@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the lidar_upsampling authors
+#pragma once
+
+#include <functional>
+#include <optional>
+
+#include "densification.h"
+#include "densify.h"
+#include "log_ahead.h"
+
+namespace lidar_upsampling {
+
+/// @brief A log as a run needs it: entry by entry, each told to the run a little ahead of its turn.
+///
+/// What must be known of a log before work begins, its first seconds tell; where they do not, the
+/// log is read whole for it first: where sensors or ego-motion come up later, the ego-motion is by
+/// GNSS (a heading is found from fixes far around), the shortest time between scans is asked for
+/// (`scan_time = azimuth` without a period), a file has a pose per scan, samples may be joined
+/// over long gaps, or the first seconds are too large to be held.
+class LogInput {
+ public:
+  /// @param job, report must outlive it; reading is timed in the report.
+  /// @throw std::runtime_error the log cannot be opened, or is damaged right at its beginning.
+  LogInput(const DensifyJob& job, DensifyReport& report);
+
+  /// @brief Of the log's beginning, or of all of it. To be called first.
+  /// @param progress of reading all of it; may be null.
+  /// @throw std::runtime_error damaged, no fitting poses.
+  [[nodiscard]] LogIndex index(const std::function<void(double)>& progress);
+
+  /// @brief The next entry, none after the last. Damage is an error, or with `accept_truncated` the
+  /// end and a warning.
+  /// @throw std::runtime_error damaged; as Densification::learn()
+  [[nodiscard]] std::optional<RawlogEntry> next(Densification& run);
+
+  [[nodiscard]] double progress() const { return log_.progress(); }
+
+ private:
+  const RawlogEntry* read_on();
+  [[nodiscard]] std::optional<LogIndex> index_of_beginning();
+
+  const DensifyJob& job_;
+  DensifyReport& report_;
+  LogAhead log_;
+  std::size_t num_told_ = 0;  ///< to the run, of the entries that wait
+  bool knows_all_ = false;    ///< the run, of the log
+};
+
+}  // namespace lidar_upsampling
