@@ -4,11 +4,14 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
+#include <string>
+#include <vector>
 
 #include "check.h"
 #include "common/tool_main.h"
 #include "densify.h"
 #include "job_settings.h"
+#include "many_logs.h"
 
 namespace {
 
@@ -26,6 +29,97 @@ LogCheck checked(const DensifyJob& job) {
   return check_log(job, std::ref(progress));
 }
 
+struct Request {
+  DensifyJob job;
+  std::vector<std::string> inputs, sets;
+  std::string config, detections, poses, report;
+  int num_jobs = 1;
+  bool print_config = false, check = false;
+};
+
+void add_options(CLI::App& app, Request& request) {
+  DensifyJob& job = request.job;
+  app.add_option("--input", request.inputs,
+                 "the log to densify (.rawlog, plain or gzip); of several, output, report and "
+                 "pictures are folders");
+  app.add_option("--output", job.output, "the densified log");
+  app.add_option("--config", request.config, "settings (INI); without it, the defaults");
+  app.add_option("--set", request.sets,
+                 "one setting: name=value of [lidar_upsampling], or section.name=value")
+      ->expected(1)
+      ->take_all();
+  app.add_option("--detections", request.detections,
+                 "boxes from a file: label,stamp,class,score,left,top,right,bottom[,track]");
+  app.add_option("--poses", request.poses,
+                 "ego-motion from a file: TUM, KITTI or CSV, see [ego_motion] poses_* of the "
+                 "settings");
+  app.add_option("--report", request.report,
+                 "counts, times, and a row per object and image (JSON)");
+  app.add_option("--pictures", job.pictures, "folder for pictures of every virtual scan");
+  app.add_option("--jobs", request.num_jobs,
+                 "several inputs: so many at a time, each with its share of the cores; those that "
+                 "fail are named at the end")
+      ->check(CLI::Range(1, 1000));
+  app.add_flag("--overwrite", job.overwrite, "replace an existing output");
+  app.add_flag("--accept-truncated", job.accept_truncated,
+               "densify what is readable of a log that is cut off");
+  app.add_flag("--check", request.check,
+               "only look at --input: its streams, and how camera and LiDAR fit in space and time; "
+               "with --pictures, a scan on a picture of each camera");
+  app.add_flag("--print-config", request.print_config,
+               "print all settings with their defaults, and stop");
+  app.callback([&] {
+    if (request.print_config) return;
+    for (const char* name : {"--input", "--output"})
+      if (app.get_option(name)->empty() && !(request.check && name == std::string("--output")))
+        throw CLI::RequiredError(name);
+    if (request.check && request.inputs.size() > 1)
+      throw CLI::ValidationError("--check", "looks at one input");
+  });
+}
+
+// @return its summary.
+std::string densify_one(DensifyJob job, const std::string& report_path,
+                        const std::function<void(double)>& progress) {
+  job.keep_rows = !report_path.empty();
+  const DensifyReport report = densify(job, progress);
+  if (!report_path.empty()) write_report(report, report_path);
+  return summary(report);
+}
+
+void densify_several(const Request& request) {
+  const auto jobs = jobs_of(request.inputs, request.job, request.report);
+  Progress progress("densifying");
+  densify_all(
+      jobs, static_cast<std::size_t>(request.num_jobs),
+      [](const LogJob& one) { return densify_one(one.job, one.report, nullptr); },
+      std::ref(progress));
+}
+
+void work_on(Request& request) {
+  if (request.print_config) {
+    std::cout << default_ini();
+    return;
+  }
+  if (!request.poses.empty()) request.sets.push_back("ego_motion.poses_file=" + request.poses);
+  load_settings(request.job, request.config, request.sets, request.detections);
+  if (request.inputs.size() > 1) {
+    densify_several(request);
+    return;
+  }
+  request.job.input = request.inputs.front();
+  if (request.check) {
+    std::cout << to_text(checked(request.job));
+    return;
+  }
+  std::string text;
+  {
+    Progress progress("densifying");
+    text = densify_one(request.job, request.report, std::ref(progress));
+  }
+  std::cout << text;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -33,55 +127,7 @@ int main(int argc, char** argv) {
       "Raises a LiDAR's frame rate to the camera's: adds a virtual 3D scan to a log at every image "
       "that falls between two real scans",
       "rawlog-densify");
-  DensifyJob job;
-  std::string config, detections, poses, report_path;
-  std::vector<std::string> sets;
-  bool print_config = false, check = false;
-  app.add_option("--input", job.input, "the log to densify (.rawlog, plain or gzip)");
-  app.add_option("--output", job.output, "the densified log");
-  app.add_option("--config", config, "settings (INI); without it, the defaults");
-  app.add_option("--set", sets,
-                 "one setting: name=value of [lidar_upsampling], or section.name=value")
-      ->expected(1)
-      ->take_all();
-  app.add_option("--detections", detections,
-                 "boxes from a file: label,stamp,class,score,left,top,right,bottom[,track]");
-  app.add_option("--poses", poses,
-                 "ego-motion from a file: TUM, KITTI or CSV, see [ego_motion] poses_* of the "
-                 "settings");
-  app.add_option("--report", report_path, "counts, times, and a row per object and image (JSON)");
-  app.add_option("--pictures", job.pictures, "folder for pictures of every virtual scan");
-  app.add_flag("--overwrite", job.overwrite, "replace an existing output");
-  app.add_flag("--accept-truncated", job.accept_truncated,
-               "densify what is readable of a log that is cut off");
-  app.add_flag("--check", check,
-               "only look at --input: its streams, and how camera and LiDAR fit in space and time; "
-               "with --pictures, a scan on a picture of each camera");
-  app.add_flag("--print-config", print_config, "print all settings with their defaults, and stop");
-  app.callback([&] {
-    if (print_config) return;
-    for (const char* name : {"--input", "--output"})
-      if (app.get_option(name)->empty() && !(check && name == std::string("--output")))
-        throw CLI::RequiredError(name);
-  });
-  return run_tool(app, argc, argv, [&] {
-    if (print_config) {
-      std::cout << default_ini();
-      return;
-    }
-    if (!poses.empty()) sets.push_back("ego_motion.poses_file=" + poses);
-    load_settings(job, config, sets, detections);
-    if (check) {
-      std::cout << to_text(checked(job));
-      return;
-    }
-    job.keep_rows = !report_path.empty();
-    DensifyReport report;
-    {
-      Progress progress("densifying");
-      report = densify(job, std::ref(progress));
-    }
-    if (!report_path.empty()) write_report(report, report_path);
-    std::cout << summary(report);
-  });
+  Request request;
+  add_options(app, request);
+  return run_tool(app, argc, argv, [&] { work_on(request); });
 }
