@@ -25,11 +25,11 @@ float smooth(float x) { return x * x * (3 - 2 * x); }
 
 float mix(float a, float b, float share) { return a + (b - a) * share; }
 
-float value_noise(const Eigen::Vector3d& p, std::uint32_t seed) {
+float value_noise(double at_x, double at_y, double at_z, std::uint32_t seed) {
   constexpr std::uint32_t kX = 0x8da6b343U, kY = 0xd8163841U, kZ = 0xcb1ab31fU;
-  const int x = floor_of(p.x()), y = floor_of(p.y()), z = floor_of(p.z());
-  const float u = smooth(static_cast<float>(p.x() - x)), v = smooth(static_cast<float>(p.y() - y)),
-              w = smooth(static_cast<float>(p.z() - z));
+  const int x = floor_of(at_x), y = floor_of(at_y), z = floor_of(at_z);
+  const float u = smooth(static_cast<float>(at_x - x)), v = smooth(static_cast<float>(at_y - y)),
+              w = smooth(static_cast<float>(at_z - z));
   const std::uint32_t hx = static_cast<std::uint32_t>(x) * kX ^ seed;
   const std::uint32_t hx1 = (static_cast<std::uint32_t>(x) + 1) * kX ^ seed;
   const std::uint32_t hy = static_cast<std::uint32_t>(y) * kY,
@@ -56,16 +56,22 @@ double gaussian(std::uint32_t a, std::uint32_t b) {
 
 float fractal_noise(const Eigen::Vector3d& p, std::uint32_t seed, const NoiseSpectrum& spectrum,
                     double size) {
+  const auto persistence = static_cast<float>(spectrum.persistence);
   float sum = 0, amplitude = 1, sq_total = 0;
-  double spacing = spectrum.coarsest;
+  // In cells of the lattice. Halving them is exact, so that dividing once is enough.
+  double x = p.x() / spectrum.coarsest, y = p.y() / spectrum.coarsest,
+         z = p.z() / spectrum.coarsest, filters_per_cell = spectrum.coarsest / size;
   for (int i = 0; i < spectrum.octaves; ++i) {
     // A lattice needs two samples per cell; below that an octave is gone, above four it is whole.
     const float weight =
-        static_cast<float>(std::clamp((spacing / size - 1.5) / 2, 0., 1.)) * amplitude;
-    if (weight > 0) sum += weight * value_noise(p / spacing, seed + 0x9e37U * i);
+        static_cast<float>(std::clamp((filters_per_cell - 1.5) / 2, 0., 1.)) * amplitude;
+    if (weight > 0) sum += weight * value_noise(x, y, z, seed + 0x9e37U * i);
     sq_total += amplitude * amplitude;
-    amplitude *= static_cast<float>(spectrum.persistence);
-    spacing *= 0.5;
+    amplitude *= persistence;
+    x *= 2;
+    y *= 2;
+    z *= 2;
+    filters_per_cell *= 0.5;
   }
   return sum / std::sqrt(sq_total);
 }
