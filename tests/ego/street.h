@@ -26,20 +26,34 @@ inline Box box_at(double x, double y, double yaw, Eigen::Vector3d size = {4.2, 1
   return box;
 }
 
-/// Distance along a ray to a box, or infinity.
-inline double ray_to_box(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,
-                         const Box& box) {
-  const Pose T_box_world = box.T_world_box.inverse();
-  const Eigen::Vector3d o = T_box_world * origin, d = T_box_world.linear() * direction;
-  double near = 0, far = 1e9;
-  for (int axis = 0; axis < 3; ++axis) {
-    const double a = (-0.5 * box.size[axis] - o[axis]) / d[axis];
-    const double b = (0.5 * box.size[axis] - o[axis]) / d[axis];
-    near = std::max(near, std::min(a, b));
-    far = std::min(far, std::max(a, b));
+/// A box as rays from one origin meet it.
+struct SeenBox {
+  SeenBox(const Box& box, const Eigen::Vector3d& origin)
+      : turn(box.T_world_box.inverse().linear()),
+        origin_in_box(box.T_world_box.inverse() * origin),
+        half(0.5 * box.size),
+        to_center(box.T_world_box.translation() - origin),
+        sq_closest(to_center.squaredNorm() - half.squaredNorm() - 1e-6) {}
+
+  /// Distance along a ray of unit length, or infinity.
+  [[nodiscard]] double range_of(const Eigen::Vector3d& direction) const {
+    const double along = to_center.dot(direction);
+    if (along * along < sq_closest) return 1e9;  // passes the ball about it, as most do
+    const Eigen::Vector3d d = turn * direction;
+    double near = 0, far = 1e9;
+    for (int axis = 0; axis < 3; ++axis) {
+      const double a = (-half[axis] - origin_in_box[axis]) / d[axis];
+      const double b = (half[axis] - origin_in_box[axis]) / d[axis];
+      near = std::max(near, std::min(a, b));
+      far = std::min(far, std::max(a, b));
+    }
+    return near < far && near > 0 ? near : 1e9;
   }
-  return near < far && near > 0 ? near : 1e9;
-}
+
+  Eigen::Matrix3d turn;
+  Eigen::Vector3d origin_in_box, half, to_center;
+  double sq_closest;
+};
 
 /// What a spinning sensor at T_world_lidar sees of flat ground (z = 0) and boxes; `owner`, if
 /// given, receives the box of each point, -1 for ground.
@@ -51,6 +65,9 @@ inline LidarScan scan_street(const std::vector<Box>& boxes, const Pose& T_world_
   scan.num_columns = num_columns;
   std::mt19937 random(seed);
   std::normal_distribution<double> error(0, noise);
+  const Eigen::Vector3d origin = T_world_lidar.translation();
+  std::vector<SeenBox> seen;
+  for (const Box& box : boxes) seen.emplace_back(box, origin);
   for (int ring = 0; ring < num_rings; ++ring) {
     const double elevation = (-24 + 27. * ring / (num_rings - 1)) * M_PI / 180;
     for (int column = 0; column < num_columns; ++column) {
@@ -58,11 +75,10 @@ inline LidarScan scan_street(const std::vector<Box>& boxes, const Pose& T_world_
       const Eigen::Vector3d beam(std::cos(elevation) * std::cos(azimuth),
                                  std::cos(elevation) * std::sin(azimuth), std::sin(elevation));
       const Eigen::Vector3d direction = T_world_lidar.linear() * beam;
-      const Eigen::Vector3d origin = T_world_lidar.translation();
       double range = direction.z() < -1e-6 ? -origin.z() / direction.z() : 1e9;
       int hit = -1;
-      for (std::size_t i = 0; i < boxes.size(); ++i) {
-        const double to_box = ray_to_box(origin, direction, boxes[i]);
+      for (std::size_t i = 0; i < seen.size(); ++i) {
+        const double to_box = seen[i].range_of(direction);
         if (to_box < range) {
           range = to_box;
           hit = static_cast<int>(i);

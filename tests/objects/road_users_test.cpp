@@ -16,13 +16,14 @@ namespace lidar_upsampling {
 namespace {
 
 using testing::BoxObject;
-using testing::ray_to_box;
+using testing::SeenBox;
 
 constexpr double kGroundBelow_m = 1.2, kHalfView_deg = 28;
 
 // What a depth camera that looks ahead sees of a box on flat ground.
 LidarScan depth_scan_of(const BoxObject& box) {
   LidarScan scan;
+  const SeenBox seen(box);
   scan.num_rings = 120;
   scan.num_columns = 280;
   for (int ring = 0; ring < scan.num_rings; ++ring)
@@ -31,7 +32,7 @@ LidarScan depth_scan_of(const BoxObject& box) {
       const double up = (20 - 40. * ring / scan.num_rings) * kDegree;
       const Eigen::Vector3d ray(std::cos(azimuth), std::sin(azimuth), std::tan(up));
       const double to_ground = up < 0 ? -kGroundBelow_m / ray.z() : 1e9;
-      const double range = std::min(ray_to_box(ray, box), to_ground);
+      const double range = std::min(seen.range_of(ray), to_ground);
       if (range > 14) continue;
       scan.points.push_back((range * ray).cast<float>());
       scan.ring.push_back(static_cast<std::uint16_t>(ring));

@@ -26,25 +26,34 @@ struct Street {
   std::vector<int> truth;  ///< index of the box, or kOnGround
 };
 
-/// Distance along the ray from the origin to the box, infinity if it misses.
-inline double ray_to_box(const Eigen::Vector3d& ray, const BoxObject& box) {
-  const Eigen::AngleAxisd turn(-box.yaw, Eigen::Vector3d::UnitZ());
-  const Eigen::Vector3d origin = turn * (-box.center);
-  const Eigen::Vector3d direction = turn * ray;
-  const Eigen::Vector3d low(-box.length / 2, -box.width / 2, 0);
-  const Eigen::Vector3d high(box.length / 2, box.width / 2, box.height);
-  double enter = 0;
-  double leave = std::numeric_limits<double>::infinity();
-  for (int axis = 0; axis < 3; ++axis) {
-    const double a = (low[axis] - origin[axis]) / direction[axis];
-    const double b = (high[axis] - origin[axis]) / direction[axis];
-    enter = std::max(enter, std::min(a, b));
-    leave = std::min(leave, std::max(a, b));
-  }
-  return enter < leave && enter > 0 ? enter : std::numeric_limits<double>::infinity();
-}
+/// A box as rays from the origin meet it.
+struct SeenBox {
+  explicit SeenBox(const BoxObject& box)
+      : turn(Eigen::AngleAxisd(-box.yaw, Eigen::Vector3d::UnitZ()).toRotationMatrix()),
+        origin(turn * (-box.center)),
+        low(-box.length / 2, -box.width / 2, 0),
+        high(box.length / 2, box.width / 2, box.height) {}
 
-/// `ground(x, y)` is the height of the ground, in the lidar frame; rays march to it.
+  /// Distance along the ray, infinity if it misses.
+  [[nodiscard]] double range_of(const Eigen::Vector3d& ray) const {
+    const Eigen::Vector3d direction = turn * ray;
+    double enter = 0;
+    double leave = std::numeric_limits<double>::infinity();
+    for (int axis = 0; axis < 3; ++axis) {
+      const double a = (low[axis] - origin[axis]) / direction[axis];
+      const double b = (high[axis] - origin[axis]) / direction[axis];
+      enter = std::max(enter, std::min(a, b));
+      leave = std::min(leave, std::max(a, b));
+    }
+    return enter < leave && enter > 0 ? enter : std::numeric_limits<double>::infinity();
+  }
+
+  Eigen::Matrix3d turn;
+  Eigen::Vector3d origin, low, high;
+};
+
+/// `ground(x, y)` is the height of the ground, in the lidar frame, nowhere as steep as one in one;
+/// rays march to it.
 inline Street make_street(const std::function<double(double, double)>& ground,
                           const std::vector<BoxObject>& boxes, int num_rings = 64,
                           int num_columns = 1200, double noise = 0.015) {
@@ -53,6 +62,7 @@ inline Street make_street(const std::function<double(double, double)>& ground,
   street.scan.num_columns = num_columns;
   std::mt19937 generator(7);
   std::normal_distribution<double> jitter(0, noise);
+  const std::vector<SeenBox> seen(boxes.begin(), boxes.end());
   for (int ring = 0; ring < num_rings; ++ring) {
     const double elevation = (-24.8 + 26.8 * ring / (num_rings - 1)) * M_PI / 180;
     for (int column = 0; column < num_columns; ++column) {
@@ -61,8 +71,8 @@ inline Street make_street(const std::function<double(double, double)>& ground,
                                 std::cos(elevation) * std::sin(azimuth), std::sin(elevation));
       double range = std::numeric_limits<double>::infinity();
       int hit = kOnGround;
-      for (std::size_t i = 0; i < boxes.size(); ++i) {
-        const double to_box = ray_to_box(ray, boxes[i]);
+      for (std::size_t i = 0; i < seen.size(); ++i) {
+        const double to_box = seen[i].range_of(ray);
         if (to_box < range) {
           range = to_box;
           hit = static_cast<int>(i);
@@ -71,7 +81,11 @@ inline Street make_street(const std::function<double(double, double)>& ground,
       const double end = std::min(range, 90.);
       for (int step = 40; 0.05 * step < end; ++step) {
         const double r = 0.05 * step;
-        if (r * ray.z() > ground(r * ray.x(), r * ray.y())) continue;
+        const double above = r * ray.z() - ground(r * ray.x(), r * ray.y());
+        if (above > 0) {
+          step += static_cast<int>(above / (2 * 0.05));  // from where it could be met at once
+          continue;
+        }
         range = r;
         hit = kOnGround;
         break;
