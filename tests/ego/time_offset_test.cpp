@@ -96,12 +96,15 @@ TEST(TimeOffset, it_is_found_without_rings_known_too) {
 }
 
 TEST(TimeOffset, a_vehicle_at_rest_cannot_tell) {
-  EXPECT_TRUE(scores_of("[ego]\nspeed_mps = 0\n", 2).empty());
+  EXPECT_TRUE(scores_of("[ego]\nspeed_mps = 0\n", 1).empty());
   EXPECT_FALSE(estimate_time_offset({}));
 }
 
 TEST(TimeOffset, a_few_pictures_cannot_tell) {
-  EXPECT_FALSE(estimate_time_offset(scores_of("", 3)));
+  const auto one = scores_of("", 1);
+  ASSERT_EQ(one.size(), 1U);
+  EXPECT_TRUE(estimate_time_offset(std::vector<OffsetScores>(8, one.front())));
+  EXPECT_FALSE(estimate_time_offset(std::vector<OffsetScores>(7, one.front())));
 }
 
 TEST(TimeOffset, scores_without_a_peak_cannot_tell) {

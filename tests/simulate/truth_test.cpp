@@ -34,7 +34,9 @@ TEST(TrueBoxes, what_is_half_hidden_says_so_and_what_is_mostly_hidden_has_none) 
   World world = empty_world();
   const int hidden = add_vehicle(world, "car", {20, 0.3, 0, 0, 0, {}});
   const int front = add_vehicle(world, "car", {12, -0.7, 0, 0, 0, {}});
-  for (const TrueBox& box : boxes_in(world)) {
+  const auto both = boxes_in(world);
+  EXPECT_EQ(both.size(), 2U);
+  for (const TrueBox& box : both) {
     if (box.object == front) {
       EXPECT_NEAR(box.hidden, 0, 1e-9);
     }
@@ -43,7 +45,6 @@ TEST(TrueBoxes, what_is_half_hidden_says_so_and_what_is_mostly_hidden_has_none) 
       EXPECT_LT(box.hidden, 0.8);
     }
   }
-  EXPECT_EQ(boxes_in(world).size(), 2U);
   world.objects[front] = make_vehicle("truck", 1);
   world.objects[front].id = front;
   world.objects[front].motion.x = 12;

@@ -31,8 +31,7 @@ struct SweepErrors {
 /// Distances of virtual points from where the truth takes them, each from its own instant on:
 /// of what stands the median (a parked car that is dragged along is another matter), of moving
 /// objects in view the mean.
-SweepErrors sweep_errors(ScanTime scan_time, bool with_poses = true) {
-  StreetRun street(kSweep);
+SweepErrors sweep_errors(StreetRun& street, ScanTime scan_time, bool with_poses = true) {
   Config config = moving_points();
   config.sweep.scan_time = scan_time;
   LidarUpsampler upsampler{config};
@@ -40,7 +39,7 @@ SweepErrors sweep_errors(ScanTime scan_time, bool with_poses = true) {
   SweepErrors errors;
   double num_moving = 0;
   for (const VirtualScan& scan : scans) {
-    const sim::SimulatedScan key = street.scan_at(scan.key_stamp);
+    const sim::SimulatedScan& key = street.scan_at(scan.key_stamp);
     std::vector<double> standing;
     for (std::size_t i = 0; i < scan.scan.size(); ++i) {
       const int source = scan.source_index[i], object = key.object[source];
@@ -65,9 +64,10 @@ SweepErrors sweep_errors(ScanTime scan_time, bool with_poses = true) {
 }
 
 TEST(SweepingLidar, points_are_taken_from_their_own_instants) {
-  const SweepErrors none = sweep_errors(ScanTime::none);
-  const SweepErrors azimuth = sweep_errors(ScanTime::azimuth);
-  const SweepErrors points = sweep_errors(ScanTime::points);
+  StreetRun street(kSweep);
+  const SweepErrors none = sweep_errors(street, ScanTime::none);
+  const SweepErrors azimuth = sweep_errors(street, ScanTime::azimuth);
+  const SweepErrors points = sweep_errors(street, ScanTime::points);
   EXPECT_GT(none.standing, 0.1);
   EXPECT_LT(azimuth.standing, 0.003);
   EXPECT_LT(points.standing, 0.003);
@@ -76,8 +76,9 @@ TEST(SweepingLidar, points_are_taken_from_their_own_instants) {
 }
 
 TEST(SweepingLidar, without_poses_the_rate_between_scans_straightens_them) {
-  const SweepErrors none = sweep_errors(ScanTime::none, false);
-  const SweepErrors points = sweep_errors(ScanTime::points, false);
+  StreetRun street(kSweep);
+  const SweepErrors none = sweep_errors(street, ScanTime::none, false);
+  const SweepErrors points = sweep_errors(street, ScanTime::points, false);
   EXPECT_LT(points.standing, 0.5 * none.standing);  // the first scan stays as it is
 }
 
