@@ -13,7 +13,7 @@ using Json = nlohmann::json;
 /// withheld.
 class FreeRunningCamera : public testing::Test {
  protected:
-  FreeRunningCamera() {
+  void make_log(const std::string& lidar = kSmallLidar) {
     simulate(folder_, R"(
 [scenario]
 duration_s = 1
@@ -21,7 +21,7 @@ duration_s = 1
 rate_hz = 15
 phase_s = 0.017
 )",
-             "[lidar]\nrings = 64\ncolumns = 900\n");
+             lidar);
     expect_done(std::string(RAWLOG_DECIMATE) + " --label LIDAR --keep-every 2 --input " +
                 folder_ / "in.rawlog" + " --output " + folder_ / "thin.rawlog");
     expect_done(densify_command(
@@ -72,6 +72,7 @@ Means means_of(const std::string& row, bool moving, const Json& by_scans, const 
 }
 
 TEST_F(FreeRunningCamera, withheld_scans_tell_of_every_row_what_the_exact_truth_tells) {
+  make_log("[lidar]\nrings = 64\ncolumns = 900\n");
   const Json by_scans = evaluate(folder_, "in.rawlog");
   const Json by_truth =
       evaluate(folder_, "truth.rawlog", "--truth-objects " + folder_ / "in_objects.csv");
@@ -89,6 +90,7 @@ TEST_F(FreeRunningCamera, withheld_scans_tell_of_every_row_what_the_exact_truth_
 }
 
 TEST_F(FreeRunningCamera, what_lies_too_far_from_any_withheld_scan_is_left_out_and_counted) {
+  make_log();
   const Json all = evaluate(folder_, "in.rawlog", "--no-paper");
   const Json near = evaluate(folder_, "in.rawlog", "--no-paper --tolerance 30");
   EXPECT_EQ(all["num_unmatched"], 0);
@@ -98,6 +100,7 @@ TEST_F(FreeRunningCamera, what_lies_too_far_from_any_withheld_scan_is_left_out_a
 }
 
 TEST_F(FreeRunningCamera, labels_judge_without_a_reference) {
+  make_log();
   const std::string command = std::string(RAWLOG_EVALUATE) + " --input " + folder_ / "out.rawlog" +
                               " --labels " + folder_ / "in_objects.csv" + " --report " +
                               folder_ / "report.json" + " --no-paper --csv " + folder_ / "row.csv";

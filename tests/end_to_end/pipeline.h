@@ -15,6 +15,7 @@
 #include "io/test_folder.h"
 #include "lidar_upsampling/io/sensory_frame.h"
 #include "lidar_upsampling/types.h"
+#include "simulated_logs.h"
 #include "tools/run_tool.h"
 
 namespace lidar_upsampling {
@@ -60,20 +61,12 @@ inline constexpr int kVirtualScans = 8;
   return count;
 }
 
-/// What goes wrong in a tool that was expected to work.
-inline void expect_done(const std::string& command) {
-  const ToolResult result = run(command);
-  EXPECT_EQ(result.status, 0) << command << '\n' << result.text;
-}
-
 /// Makes in.rawlog, in_*.csv and truth.rawlog in the folder.
 /// @param changes further INI text; sections may be given again.
 /// @param lidar its section.
 inline void simulate(const TestFolder& folder, const std::string& changes = {},
                      const std::string& lidar = kSmallLidar) {
-  std::ofstream(folder / "street.ini") << kSmallStreet << lidar << changes;
-  expect_done(std::string(RAWLOG_SIMULATE) + " --scenario " + folder / "street.ini" + " --output " +
-              folder / "in.rawlog" + " --truth " + folder / "truth.rawlog");
+  simulate_in(folder.path(), kSmallStreet + lidar + changes);
 }
 
 inline std::string densify_command(const std::string& input, const std::string& output,
