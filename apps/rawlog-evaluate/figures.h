@@ -42,6 +42,9 @@ struct Bin {
   PerRow<ErrorSummary> rows;
 };
 
+/// "10 to 20 m", "80 m and more"; times by their middle.
+[[nodiscard]] std::string edges_of(const Bin& bin, const std::string& unit);
+
 struct Binned {
   std::string key;   ///< as programs call it
   std::string unit;  ///< of the edges

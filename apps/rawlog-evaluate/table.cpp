@@ -91,11 +91,15 @@ std::string chamfer_block(const Figures& figures) {
          block;
 }
 
+}  // namespace
+
 std::string edges_of(const Bin& bin, const std::string& unit) {
   if (unit == "s") return formatted("%.2f s", 0.5 * (bin.from + bin.to));
   if (std::isinf(bin.to)) return formatted("%.0f %s and more", bin.from, unit.c_str());
   return formatted("%.0f to %.0f %s", bin.from, bin.to, unit.c_str());
 }
+
+namespace {
 
 std::string bin_block(const Binned& binned) {
   if (binned.bins.empty()) return {};

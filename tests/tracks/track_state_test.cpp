@@ -144,7 +144,7 @@ TEST(TrackState, learns_its_step_from_its_velocity) {
 // One object's drawn life: an acceleration that lasts a while, a sight every tenth of a second.
 double sq_velocity_error_in_sigmas(std::mt19937& random, const MotionNoise& noise) {
   std::normal_distribution<double> normal;
-  constexpr double kSight_m = 0.03, kPeriod_s = 0.1;
+  constexpr double kSight_m = 0.03, kStep_s = 0.1;
   constexpr int kFine = 20;
   Eigen::Vector2d velocity(noise.unknown_speed_sigma * normal(random),
                            noise.unknown_speed_sigma * normal(random));
@@ -153,7 +153,7 @@ double sq_velocity_error_in_sigmas(std::mt19937& random, const MotionNoise& nois
   TrackState state = new_track_state(kStart, noise);
   for (int scan = 1; scan <= 6; ++scan) {
     Eigen::Vector2d step = Eigen::Vector2d::Zero();
-    const double dt = kPeriod_s / kFine;
+    const double dt = kStep_s / kFine;
     for (int i = 0; i < kFine; ++i) {
       step += velocity * dt;
       velocity += acceleration * dt;
@@ -161,7 +161,7 @@ double sq_velocity_error_in_sigmas(std::mt19937& random, const MotionNoise& nois
       acceleration =
           lasts * acceleration + noise.acceleration_sigma * std::sqrt(1 - lasts * lasts) * draw();
     }
-    const Stamp now = shifted(kStart, kPeriod_s * scan);
+    const Stamp now = shifted(kStart, kStep_s * scan);
     state = updated(predicted(state, now, noise),
                     seen_at(step.x() + kSight_m * normal(random),
                             step.y() + kSight_m * normal(random), kSight_m));

@@ -13,7 +13,7 @@ namespace lidar_upsampling {
 
 namespace {
 
-const std::string kEnding = "_VIRTUAL";
+const std::string kVirtual = "_VIRTUAL";
 
 std::vector<double> gaps_of(const std::vector<Stamp>& stamps) {
   std::vector<double> gaps;
@@ -44,12 +44,12 @@ bool has_near(const std::vector<Stamp>& stamps, Stamp stamp, double tolerance_s)
 const StreamInfo& virtual_stream(const LogIndex& index, const std::string& label) {
   for (const StreamInfo* stream : index.of_kind(StreamKind::lidar)) {
     const std::string& name = stream->label;
-    const bool ends = name.size() > kEnding.size() &&
-                      name.compare(name.size() - kEnding.size(), kEnding.size(), kEnding) == 0;
-    if (ends && (label.empty() || name == label + kEnding)) return *stream;
+    const bool ends = name.size() > kVirtual.size() &&
+                      name.compare(name.size() - kVirtual.size(), kVirtual.size(), kVirtual) == 0;
+    if (ends && (label.empty() || name == label + kVirtual)) return *stream;
   }
   throw std::runtime_error(index.path + ": holds no virtual scans (label " +
-                           (label.empty() ? "..." : label) + kEnding +
+                           (label.empty() ? "..." : label) + kVirtual +
                            "); densify it with rawlog-densify. It holds " + labels_of(index));
 }
 
@@ -103,7 +103,7 @@ HtmlTable cameras_table(const Coverage& coverage) {
 
 Coverage measure_coverage(const LogIndex& index, const std::string& label, double tolerance_s) {
   const StreamInfo& dense = virtual_stream(index, label);
-  const std::string real_label = dense.label.substr(0, dense.label.size() - kEnding.size());
+  const std::string real_label = dense.label.substr(0, dense.label.size() - kVirtual.size());
   Coverage coverage;
   const StreamInfo* real = index.find(real_label, StreamKind::lidar);
   coverage.real = coverage_of("real scans, " + real_label,

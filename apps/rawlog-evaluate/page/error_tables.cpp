@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <sstream>
 
 #include "palette.h"
@@ -50,12 +49,6 @@ HtmlTable object_table(const char* caption, const Figures& figures,
     table.rows.push_back(std::move(line));
   }
   return table;
-}
-
-std::string edges_of(const Bin& bin, const std::string& unit) {
-  if (unit == "s") return fixed(0.5 * (bin.from + bin.to), 2) + " s";
-  if (std::isinf(bin.to)) return fixed(bin.from, 0) + " " + unit + " and more";
-  return fixed(bin.from, 0) + " to " + fixed(bin.to, 0) + " " + unit;
 }
 
 /// Here a line is a bin, and the rows stand side by side.
