@@ -19,7 +19,7 @@ namespace {
 constexpr int kGrainSize = 1024;
 
 /// Values that are read four at a time, with room for reading on from the last one.
-using Values = std::vector<float>;
+using ByFours = std::vector<float>;
 using Four = Eigen::Map<const Eigen::Array4f>;
 
 /// The points of a picture sorted into cells of the size of half a neighbourhood, row by row.
@@ -62,7 +62,7 @@ class PixelGrid {
 
   const float half_width, half_height;
   std::vector<int> source, cell, index;  ///< of each point: in the order given; in the scan
-  Values u, v, depth;
+  ByFours u, v, depth;
 
  private:
   [[nodiscard]] int column(float x) const { return static_cast<int>((x - left_) / half_width); }
@@ -122,7 +122,7 @@ DepthRange depths_around(const PixelGrid& grid, const PixelGrid::Block& block, i
 /// The neighbours of a point. Offsets in units of the neighbourhood's half size.
 struct Neighbours {
   int size = 0;
-  Values du, dv, depth;
+  ByFours du, dv, depth;
 
   /// Without branches, too.
   void take(const PixelGrid& grid, const PixelGrid::Block& block, int i) {
@@ -176,7 +176,7 @@ bool is_edge(Neighbours& around, float depth, float limit) {
   Eigen::Matrix3f normal = Eigen::Matrix3f::Zero();
   Eigen::Vector3f right(1, 0, 0);
   normal(0, 0) = 1 + static_cast<float>(around.size);
-  const Values &du = around.du, &dv = around.dv, &inverse = around.depth;
+  const ByFours &du = around.du, &dv = around.dv, &inverse = around.depth;
   for (int k = 0; k < around.size; k += 4) {
     Eigen::Map<Eigen::Array4f> four(&around.depth[k]);
     four = depth / four;
