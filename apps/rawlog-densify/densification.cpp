@@ -82,6 +82,7 @@ std::optional<VirtualScan> Densification::flush() { return noted(upsampler_.flus
 
 std::optional<VirtualScan> Densification::feed_scan(const CObservation::Ptr& observation) {
   ++report_.num_scans;
+  ++num_fed_;
   last_real_ = observation;
   std::optional<LidarScan> scan;
   try {
@@ -108,13 +109,13 @@ void Densification::look_ahead(const RawlogEntry& entry) {
 
 bool Densification::wants_scans() const {
   if (!ahead_) return false;
-  return num_expected_ + ahead_->size() < report_.num_scans + 1 + job_.config.scans_ahead;
+  return num_expected_ + ahead_->size() < num_fed_ + 1 + job_.config.scans_ahead;
 }
 
 // The scan at hand is the first of those ahead.
 void Densification::expect_scans() {
   if (!ahead_) return;
-  const std::size_t wanted = report_.num_scans + job_.config.scans_ahead;
+  const std::size_t wanted = num_fed_ + job_.config.scans_ahead;
   for (; num_expected_ < wanted; ++num_expected_) {
     auto scan = ahead_->next();
     if (!scan) return;

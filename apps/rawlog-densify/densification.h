@@ -65,6 +65,7 @@ class Densification {
   std::set<std::string> camera_labels_;
   std::optional<Pictures> pictures_;
   std::optional<ScansAhead> ahead_;  ///< with mode = offline
+  std::size_t num_fed_ = 0;          ///< scans, readable or not
   std::size_t num_expected_ = 0;     ///< scans that were told ahead
 };
 

@@ -124,35 +124,72 @@ std::string detector_name(const Config& config) {
   return "clusters of the scan";
 }
 
-}  // namespace
-
-DensifyReport densify(const DensifyJob& job, const std::function<void(double)>& progress) {
-  const auto tell = [&](double share) {
-    if (progress) progress(share);
-  };
+DensifyReport report_of(const DensifyJob& job) {
   DensifyReport report;
   report.input = job.input;
   report.output = job.output;
   report.mode = job.config.mode;
   report.hindsight = job.config.mode == "offline";
   report.detector = detector_name(job.config);
-  Output output(job, report);
+  return report;
+}
+
+// Nothing of it goes out.
+void warm_up(Densification& run, LogInput& input, const LogPart& part) {
+  input.skip_to(shifted(*part.from, -part.warm_up_s));
+  while (const auto entry = input.next(run, part.from)) {
+    if (const auto* frame = dynamic_cast<const mrpt::obs::CSensoryFrame*>(entry->object.get()))
+      for (const CObservation::Ptr& observation : *frame) static_cast<void>(run.feed(observation));
+    else
+      static_cast<void>(run.feed(std::dynamic_pointer_cast<CObservation>(entry->object)));
+  }
+  static_cast<void>(run.flush());
+}
+
+}  // namespace
+
+PartReport densify_part(const DensifyJob& job, const LogPart& part,
+                        const std::function<void(double)>& progress) {
   constexpr double kIndexShare = 0.1;  // of the whole work, where there is need of one
+  PartReport done{report_of(job), {}};
+  DensifyReport& report = done.report;
+  Output output(job, report);
   LogInput input(job, report);
-  double done = 0;
-  const LogIndex index = input.index([&](double share) { tell(done = kIndexShare * share); });
+  double told = 0;
+  const auto tell = [&](double share) {
+    told = share;
+    if (progress) progress(share);
+  };
+  if (part.index != nullptr) input.know_all();
+  const LogIndex index = part.index != nullptr
+                             ? *part.index
+                             : input.index([&](double share) { tell(kIndexShare * share); });
+  const double before = told;
   Insertion run(job, index, report);
-  for (; const auto entry = input.next(run.run()); ++report.num_objects_in) {
+  if (part.from) {
+    warm_up(run.run(), input, part);
+    done.warm_up = std::exchange(report, report.begun_anew());
+  }
+  for (; const auto entry = input.next(run.run(), part.to); ++report.num_objects_in) {
     densify_entry(*entry, run, output);
-    tell(done + (1 - done) * input.progress());
+    tell(before + (1 - before) * input.progress());
   }
   for (const auto& observation : run.flush()) output.write(*observation);
   output.commit();
+  return done;
+}
+
+DensifyReport densify(const DensifyJob& job, const std::function<void(double)>& progress) {
+  DensifyReport report = densify_part(job, {}, progress).report;
+  link_external_images(job, report);
+  return report;
+}
+
+void link_external_images(const DensifyJob& job, DensifyReport& report) {
   if (!share_external_storage(job.input, job.output))
     report.warn(
         "the output's folder of external images is taken by something else: its images will not be "
         "found");
-  return report;
 }
 
 }  // namespace lidar_upsampling

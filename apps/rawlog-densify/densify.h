@@ -3,10 +3,11 @@
 #pragma once
 
 #include <functional>
-#include <memory>
+#include <optional>
 #include <string>
 
 #include "lidar_upsampling/config.h"
+#include "lidar_upsampling/io/log_index.h"
 #include "lidar_upsampling/io/rig_overrides.h"
 #include "report.h"
 
@@ -28,5 +29,26 @@ struct DensifyJob {
 /// @throw std::runtime_error with one line that says what, where and what to do.
 [[nodiscard]] DensifyReport densify(const DensifyJob& job,
                                     const std::function<void(double)>& progress);
+
+/// A part of a log, from the first entry that has a stamp or a later one, to the next part's.
+struct LogPart {
+  const LogIndex* index = nullptr;  ///< of the whole log, with the poses that are to be used
+  std::optional<Stamp> from;        ///< none: the log's begin
+  std::optional<Stamp> to;          ///< none: the log's end
+  double warm_up_s = 0;             ///< what goes before `from` is looked at for so long
+};
+
+struct PartReport {
+  DensifyReport report;
+  DensifyReport warm_up;  ///< of what went before, and is not in the output
+};
+
+/// Lets the output find the input's externally stored images, or warns.
+void link_external_images(const DensifyJob& job, DensifyReport& report);
+
+/// @brief The same of a part. External images are not linked.
+/// @throw std::runtime_error as densify()
+[[nodiscard]] PartReport densify_part(const DensifyJob& job, const LogPart& part,
+                                      const std::function<void(double)>& progress);
 
 }  // namespace lidar_upsampling

@@ -52,6 +52,11 @@ void refuse_damage(const DensifyJob& job, const std::optional<std::string>& corr
     throw std::runtime_error(*corruption + "; --accept-truncated densifies what comes before");
 }
 
+bool is_from(const RawlogEntry& entry, Stamp stamp) {
+  const auto own = stamp_of(entry);
+  return own && *own >= stamp;
+}
+
 }  // namespace
 
 LogInput::LogInput(const DensifyJob& job, DensifyReport& report)
@@ -89,7 +94,20 @@ std::optional<LogIndex> LogInput::index_of_beginning() {
   return index;
 }
 
-std::optional<RawlogEntry> LogInput::next(Densification& run) {
+void LogInput::know_all() {
+  knows_all_ = true;
+  log_.look_no_further();
+}
+
+void LogInput::skip_to(Stamp stamp) {
+  for (;;) {
+    if (log_.waiting().empty() && read_on() == nullptr) return;
+    if (is_from(log_.waiting().front(), stamp)) return;
+    static_cast<void>(log_.next());
+  }
+}
+
+std::optional<RawlogEntry> LogInput::next(Densification& run, std::optional<Stamp> end) {
   for (; num_told_ < log_.waiting().size(); ++num_told_) run.look_ahead(log_.waiting()[num_told_]);
   while (!log_.is_full() || run.wants_scans()) {
     const RawlogEntry* const entry = read_on();
@@ -98,6 +116,7 @@ std::optional<RawlogEntry> LogInput::next(Densification& run) {
     run.look_ahead(*entry);
     ++num_told_;
   }
+  if (end && !log_.waiting().empty() && is_from(log_.waiting().front(), *end)) return {};
   auto entry = log_.next();
   if (entry) --num_told_;
   return entry;

@@ -29,10 +29,18 @@ class LogInput {
   /// @throw std::runtime_error damaged, no fitting poses.
   [[nodiscard]] LogIndex index(const std::function<void(double)>& progress);
 
+  /// In place of index(), for a log whose index is known.
+  void know_all();
+
+  /// @brief Passes over what comes before the first entry that has this stamp, or a later one.
+  /// @throw std::runtime_error damaged
+  void skip_to(Stamp stamp);
+
   /// @brief The next entry, none after the last. Damage is an error, or with `accept_truncated` the
   /// end and a warning.
+  /// @param end the first entry that has this stamp, or a later one, is none any more.
   /// @throw std::runtime_error damaged; as Densification::learn()
-  [[nodiscard]] std::optional<RawlogEntry> next(Densification& run);
+  [[nodiscard]] std::optional<RawlogEntry> next(Densification& run, std::optional<Stamp> end = {});
 
   [[nodiscard]] double progress() const { return log_.progress(); }
 

@@ -12,6 +12,7 @@
 #include "densify.h"
 #include "job_settings.h"
 #include "many_logs.h"
+#include "parts.h"
 
 namespace {
 
@@ -34,15 +35,11 @@ struct Request {
   std::vector<std::string> inputs, sets;
   std::string config, detections, poses, report;
   int num_jobs = 1;
+  double warm_up_s = PartOptions().warm_up_s;
   bool print_config = false, check = false;
 };
 
-void add_options(CLI::App& app, Request& request) {
-  DensifyJob& job = request.job;
-  app.add_option("--input", request.inputs,
-                 "the log to densify (.rawlog, plain or gzip); of several, output, report and "
-                 "pictures are folders");
-  app.add_option("--output", job.output, "the densified log");
+void add_settings(CLI::App& app, Request& request) {
   app.add_option("--config", request.config, "settings (INI); without it, the defaults");
   app.add_option("--set", request.sets,
                  "one setting: name=value of [lidar_upsampling], or section.name=value")
@@ -53,36 +50,46 @@ void add_options(CLI::App& app, Request& request) {
   app.add_option("--poses", request.poses,
                  "ego-motion from a file: TUM, KITTI or CSV, see [ego_motion] poses_* of the "
                  "settings");
+}
+
+void add_files(CLI::App& app, Request& request) {
+  DensifyJob& job = request.job;
+  app.add_option("--input", request.inputs,
+                 "the log to densify (.rawlog, plain or gzip); of several, output, report and "
+                 "pictures are folders");
+  app.add_option("--output", job.output, "the densified log");
   app.add_option("--report", request.report,
                  "counts, times, and a row per object and image (JSON)");
   app.add_option("--pictures", job.pictures, "folder for pictures of every virtual scan");
+}
+
+void add_ways_to_work(CLI::App& app, Request& request) {
   app.add_option("--jobs", request.num_jobs,
                  "several inputs: so many at a time, each with its share of the cores; those that "
-                 "fail are named at the end")
+                 "fail are named at the end. One input: in so many parts side by side, joined to "
+                 "one output. As many always give the same; other than with one is what rests on "
+                 "what came before a part's --warm-up")
       ->check(CLI::Range(1, 1000));
-  app.add_flag("--overwrite", job.overwrite, "replace an existing output");
-  app.add_flag("--accept-truncated", job.accept_truncated,
+  app.add_option("--warm-up", request.warm_up_s,
+                 "s, that each part of a log looks back from its begin")
+      ->capture_default_str()
+      ->check(CLI::Range(0., 60.));
+  app.add_flag("--overwrite", request.job.overwrite, "replace an existing output");
+  app.add_flag("--accept-truncated", request.job.accept_truncated,
                "densify what is readable of a log that is cut off");
   app.add_flag("--check", request.check,
                "only look at --input: its streams, and how camera and LiDAR fit in space and time; "
                "with --pictures, a scan on a picture of each camera");
   app.add_flag("--print-config", request.print_config,
                "print all settings with their defaults, and stop");
-  app.callback([&] {
-    if (request.print_config) return;
-    for (const char* name : {"--input", "--output"})
-      if (app.get_option(name)->empty() && !(request.check && name == std::string("--output")))
-        throw CLI::RequiredError(name);
-    if (request.check && request.inputs.size() > 1)
-      throw CLI::ValidationError("--check", "looks at one input");
-  });
 }
 
 // @return its summary.
-std::string densify_one(DensifyJob job, const std::string& report_path,
+std::string densify_one(DensifyJob job, const std::string& report_path, const PartOptions& parts,
                         const std::function<void(double)>& progress) {
   job.keep_rows = !report_path.empty();
-  const DensifyReport report = densify(job, progress);
+  const DensifyReport report =
+      parts.most > 1 ? densify_in_parts(job, parts, progress) : densify(job, progress);
   if (!report_path.empty()) write_report(report, report_path);
   return summary(report);
 }
@@ -92,7 +99,7 @@ void densify_several(const Request& request) {
   Progress progress("densifying");
   densify_all(
       jobs, static_cast<std::size_t>(request.num_jobs),
-      [](const LogJob& one) { return densify_one(one.job, one.report, nullptr); },
+      [](const LogJob& one) { return densify_one(one.job, one.report, {}, nullptr); },
       std::ref(progress));
 }
 
@@ -112,10 +119,11 @@ void work_on(Request& request) {
     std::cout << to_text(checked(request.job));
     return;
   }
+  const PartOptions parts{static_cast<std::size_t>(request.num_jobs), request.warm_up_s};
   std::string text;
   {
     Progress progress("densifying");
-    text = densify_one(request.job, request.report, std::ref(progress));
+    text = densify_one(request.job, request.report, parts, std::ref(progress));
   }
   std::cout << text;
 }
@@ -128,6 +136,16 @@ int main(int argc, char** argv) {
       "that falls between two real scans",
       "rawlog-densify");
   Request request;
-  add_options(app, request);
+  add_files(app, request);
+  add_settings(app, request);
+  add_ways_to_work(app, request);
+  app.callback([&] {
+    if (request.print_config) return;
+    for (const char* name : {"--input", "--output"})
+      if (app.get_option(name)->empty() && !(request.check && name == std::string("--output")))
+        throw CLI::RequiredError(name);
+    if (request.check && request.inputs.size() > 1)
+      throw CLI::ValidationError("--check", "looks at one input");
+  });
   return run_tool(app, argc, argv, [&] { work_on(request); });
 }

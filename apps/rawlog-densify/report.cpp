@@ -109,6 +109,8 @@ std::string resampling_line(const std::map<std::string, std::size_t>& resampling
 void DensifyReport::add(const VirtualScan& scan, bool keep_rows) {
   ++num_virtual_scans;
   if (scan.ego_extrapolated) ++num_extrapolated;
+  last_stamp = scan.scan.stamp;
+  T_rest_lidar_last = scan.T_rest_lidar_t;
   ++resampling[to_string(scan.resampling)];
   const std::vector<ObjectBox> boxes = keep_rows ? object_boxes(scan) : std::vector<ObjectBox>{};
   for (const ObjectMotion& object : scan.objects) {
@@ -134,6 +136,19 @@ void DensifyReport::add(const std::vector<StageTime>& times) {
 }
 
 void DensifyReport::warn(const std::string& text) { ++warnings[text]; }
+
+DensifyReport DensifyReport::begun_anew() const {
+  DensifyReport report;
+  report.input = input;
+  report.output = output;
+  report.mode = mode;
+  report.ego_source = ego_source;
+  report.detector = detector;
+  report.carrier = carrier;
+  report.camera_time_offset_ms = camera_time_offset_ms;
+  report.hindsight = hindsight;
+  return report;
+}
 
 nlohmann::json to_json(const DensifyReport& report) {
   nlohmann::json json{{"input", report.input},

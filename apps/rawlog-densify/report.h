@@ -42,10 +42,15 @@ struct DensifyReport {
   };
   std::vector<Row> rows;
   std::vector<std::pair<Stamp, OtherCluster>> other_clusters;  ///< by key scan
+  Stamp last_stamp;                                            ///< of the last virtual scan
+  Pose T_rest_lidar_last = Pose::Identity();                   ///< then
 
   void add(const VirtualScan& scan, bool keep_rows);
   void add(const std::vector<StageTime>& times);
   void warn(const std::string& text);
+
+  /// What all of a log have in common, without what was met so far.
+  [[nodiscard]] DensifyReport begun_anew() const;
 };
 
 /// Times its scope for a report.
