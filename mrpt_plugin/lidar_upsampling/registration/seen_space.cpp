@@ -17,10 +17,10 @@ namespace lidar_upsampling {
 namespace {
 
 constexpr float kHighest = static_cast<float>(45 * kDegree);
-constexpr double kColumn_deg = 0.5;  // wider than any spinning LiDAR's step
-constexpr double kRoom = 1.2;        // so that no row lies between two rings
-constexpr float kMargin_m = 0.5F;    // surfaces are inclined, and objects have depth
-constexpr double kBlind_deg = 10;    // no beam for as long: the sensor does not look there
+constexpr int kColumns = 720;      // wider than any spinning LiDAR's step
+constexpr double kRoom = 1.2;      // so that no row lies between two rings
+constexpr float kMargin_m = 0.5F;  // surfaces are inclined, and objects have depth
+constexpr double kBlind_deg = 10;  // no beam for as long: the sensor does not look there
 
 /// Whether each column of a circle is empty, and so are at least as many in a row.
 std::vector<bool> in_long_runs(const std::vector<bool>& empty, int least) {
@@ -46,9 +46,9 @@ std::vector<bool> in_long_runs(const std::vector<bool>& empty, int least) {
 
 SeenSpace::SeenSpace(const std::vector<Eigen::Vector3f>& points, double vertical_step_deg)
     : per_row_(static_cast<float>(1 / (kRoom * std::max(0.2, vertical_step_deg) * kDegree))),
-      per_column_(static_cast<float>(1 / (kColumn_deg * kDegree))),
+      per_column_(kColumns / kTurn),
       rows_(static_cast<int>(2 * kHighest * per_row_) + 1),
-      columns_(static_cast<int>(kTurn * per_column_) + 1),
+      columns_(kColumns),
       cells_(static_cast<std::size_t>(rows_) * columns_,
              Reach{std::numeric_limits<float>::infinity(), 0}) {
   struct Beam {
@@ -71,7 +71,7 @@ SeenSpace::SeenSpace(const std::vector<Eigen::Vector3f>& points, double vertical
   std::vector<bool> is_empty(columns_, true);
   for (const Beam& beam : beams)
     if (beam.cell >= 0) is_empty[beam.cell % columns_] = false;
-  is_out_of_view_ = in_long_runs(is_empty, static_cast<int>(kBlind_deg / kColumn_deg));
+  is_out_of_view_ = in_long_runs(is_empty, static_cast<int>(kColumns * kBlind_deg / 360));
 }
 
 int SeenSpace::row_of(const Eigen::Vector3f& place) const {
