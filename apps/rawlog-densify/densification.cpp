@@ -5,7 +5,9 @@
 #include <mrpt/obs/CObservationImage.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <stdexcept>
+#include <utility>
 
 #include "lidar_upsampling/io/carriers.h"
 #include "lidar_upsampling/io/images.h"
@@ -59,9 +61,13 @@ void Densification::learn(LogIndexer& indexer) {
   if (!job_.config.pose_file.path.empty()) news.poses.clear();
   take_ego(news);
   const std::string source = to_string(upsampler_.ego_motion().source());
-  if (source != report_.ego_source)
-    report_.warn("ego-motion by " + source + " comes up late in the log, until then it is by " +
-                 std::exchange(report_.ego_source, source));
+  if (source != report_.ego_source) {
+    const std::string text = "ego-motion by " + source +
+                             " comes up late in the log, until then it is by " +
+                             std::exchange(report_.ego_source, source);
+    if (std::filesystem::is_regular_file(job_.input)) throw EgoComesLate(text);
+    report_.warn(text);  // what comes through a pipe is gone
+  }
 
   constexpr std::ptrdiff_t kMost = 1000;  // those before are past
   const std::vector<Stamp>& stamps = index.find(lidar_label_, StreamKind::lidar)->stamps;

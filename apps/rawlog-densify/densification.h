@@ -6,6 +6,7 @@
 
 #include <optional>
 #include <set>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -19,6 +20,12 @@
 
 namespace lidar_upsampling {
 
+/// @brief Better ego-motion than a log's beginning has comes up later: to use it from the start,
+/// all of the log must be known.
+struct EgoComesLate : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
 /// @brief One run of the method over a log: its observations go in one by one, in the log's order,
 /// virtual scans come out.
 class Densification {
@@ -31,6 +38,7 @@ class Densification {
 
   /// @brief Takes what more has been read of a log, ahead of its turn.
   /// @throw std::runtime_error streams have come up that leave none to choose.
+  /// @throw EgoComesLate, if the log can be read again.
   void learn(LogIndexer& indexer);
   /// @brief With `mode = offline`, takes the scans of an entry of the log, ahead of its turn.
   void look_ahead(const RawlogEntry& entry);

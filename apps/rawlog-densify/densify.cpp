@@ -146,10 +146,8 @@ void warm_up(Densification& run, LogInput& input, const LogPart& part) {
   static_cast<void>(run.flush());
 }
 
-}  // namespace
-
-PartReport densify_part(const DensifyJob& job, const LogPart& part,
-                        const std::function<void(double)>& progress) {
+PartReport attempt(const DensifyJob& job, const LogPart& part, bool know_all,
+                   const std::function<void(double)>& progress) {
   constexpr double kIndexShare = 0.1;  // of the whole work, where there is need of one
   PartReport done{report_of(job), {}};
   DensifyReport& report = done.report;
@@ -161,9 +159,10 @@ PartReport densify_part(const DensifyJob& job, const LogPart& part,
     if (progress) progress(share);
   };
   if (part.index != nullptr) input.know_all();
-  const LogIndex index = part.index != nullptr
-                             ? *part.index
-                             : input.index([&](double share) { tell(kIndexShare * share); });
+  const LogIndex index =
+      part.index != nullptr
+          ? *part.index
+          : input.index(know_all, [&](double share) { tell(kIndexShare * share); });
   const double before = told;
   Insertion run(job, index, report);
   if (part.from) {
@@ -177,6 +176,17 @@ PartReport densify_part(const DensifyJob& job, const LogPart& part,
   for (const auto& observation : run.flush()) output.write(*observation);
   output.commit();
   return done;
+}
+
+}  // namespace
+
+PartReport densify_part(const DensifyJob& job, const LogPart& part,
+                        const std::function<void(double)>& progress) {
+  try {
+    return attempt(job, part, false, progress);
+  } catch (const EgoComesLate&) {
+    return attempt(job, part, true, progress);
+  }
 }
 
 DensifyReport densify(const DensifyJob& job, const std::function<void(double)>& progress) {

@@ -33,7 +33,7 @@ bool has_ego(EgoSource source, const LogIndex& index) {
   const bool has_poses = index.poses.size() >= 2, has_odometry = index.odometry.size() >= 2;
   switch (source) {
     case EgoSource::automatic:
-      return has_poses || has_odometry;
+      return has_poses || has_odometry || index.gnss.empty();  // none: the camera's
     case EgoSource::poses:
       return has_poses;
     case EgoSource::odometry:
@@ -65,8 +65,8 @@ LogInput::LogInput(const DensifyJob& job, DensifyReport& report)
     if (read_on() == nullptr) break;
 }
 
-LogIndex LogInput::index(const std::function<void(double)>& progress) {
-  auto beginning = index_of_beginning();
+LogIndex LogInput::index(bool whole, const std::function<void(double)>& progress) {
+  auto beginning = whole ? std::nullopt : index_of_beginning();
   knows_all_ = !beginning || log_.is_at_end();
   if (beginning) return std::move(*beginning);
   log_.look_no_further();

@@ -14,7 +14,7 @@ namespace lidar_upsampling {
 /// @brief A log as a run needs it: entry by entry, each told to the run a little ahead of its turn.
 ///
 /// What must be known of a log before work begins, its first seconds tell; where they do not, the
-/// log is read whole for it first: where sensors or ego-motion come up later, the ego-motion is by
+/// log is read whole for it first: where a sensor comes up later, the ego-motion is by
 /// GNSS (a heading is found from fixes far around), the shortest time between scans is asked for
 /// (`scan_time = azimuth` without a period), a file has a pose per scan, samples may be joined
 /// over long gaps, or the first seconds are too large to be held.
@@ -25,9 +25,9 @@ class LogInput {
   LogInput(const DensifyJob& job, DensifyReport& report);
 
   /// @brief Of the log's beginning, or of all of it. To be called first.
-  /// @param progress of reading all of it; may be null.
+  /// @param whole of all of it in any case. @param progress of reading that; may be null.
   /// @throw std::runtime_error damaged, no fitting poses.
-  [[nodiscard]] LogIndex index(const std::function<void(double)>& progress);
+  [[nodiscard]] LogIndex index(bool whole, const std::function<void(double)>& progress);
 
   /// In place of index(), for a log whose index is known.
   void know_all();

@@ -50,26 +50,42 @@ void expect_refused(const TestFolder& folder, const std::string& words) {
   EXPECT_EQ(num_files(folder.path()), num_before);
 }
 
+bool is_pose(const RawlogEntry& entry) { return label_of(entry) == "POSE"; }
+
+void drop_poses(std::vector<RawlogEntry>& entries) {
+  entries.erase(std::remove_if(entries.begin(), entries.end(), is_pose), entries.end());
+}
+
 // Of a pipe nothing can be read twice.
+void expect_the_same_through_a_pipe(const TestFolder& folder, const std::string& more) {
+  densify(folder, more);
+  const std::string pipe = folder / "pipe.rawlog";
+  expect_done("mkfifo " + pipe + " && { timeout 60 cat " + folder / "in.rawlog" + " > " + pipe +
+              " & timeout 60 " + densify_command(pipe, folder / "once.rawlog", more) + "; }");
+  EXPECT_TRUE(uncompressed(folder / "once.rawlog") == uncompressed(folder / "out.rawlog"));
+  EXPECT_EQ(with_label(observations_of(folder / "once.rawlog"), "LIDAR_VIRTUAL").size(),
+            kLongVirtualScans);
+}
+
 TEST(ReadOnce, a_log_that_comes_through_a_pipe_gives_what_the_file_gives) {
   for (const std::string more : {"", "--set mode=offline"}) {
     const TestFolder folder;
     write_hand_made(folder / "in.rawlog", long_log());
-    densify(folder, more);
-    const std::string pipe = folder / "pipe.rawlog";
-    expect_done("mkfifo " + pipe + " && { timeout 60 cat " + folder / "in.rawlog" + " > " + pipe +
-                " & timeout 60 " + densify_command(pipe, folder / "once.rawlog", more) + "; }");
-    EXPECT_TRUE(uncompressed(folder / "once.rawlog") == uncompressed(folder / "out.rawlog"));
-    EXPECT_EQ(with_label(observations_of(folder / "once.rawlog"), "LIDAR_VIRTUAL").size(),
-              kLongVirtualScans);
+    expect_the_same_through_a_pipe(folder, more);
   }
+}
+
+TEST(ReadOnce, a_log_without_ego_motion_comes_through_a_pipe_too) {
+  const TestFolder folder;
+  write_changed(folder, drop_poses);
+  expect_the_same_through_a_pipe(folder, "");
 }
 
 TEST(ReadOnce, poses_that_only_come_at_the_end_of_a_log_are_used_from_the_start) {
   const TestFolder folder;
   write_changed(folder, [](std::vector<RawlogEntry>& entries) {
     std::stable_partition(entries.begin(), entries.end(),
-                          [](const RawlogEntry& entry) { return label_of(entry) != "POSE"; });
+                          [](const RawlogEntry& entry) { return !is_pose(entry); });
   });
   const auto report = densified(folder);
   EXPECT_EQ(report["ego_motion"], "poses");
