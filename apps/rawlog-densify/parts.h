@@ -13,7 +13,7 @@ struct PartOptions {
   std::size_t most = 1;  ///< parts; fewer if they would be shorter than a warm-up
   /// What goes before a part is looked at for so long: after less, tracks are not yet what they
   /// would be.
-  double warm_up_s = 2;
+  double warm_up_s = 3;
 };
 
 /// @brief densify() of one log in parts side by side, of equally many scans each, that are joined
