@@ -44,7 +44,7 @@ runs() {
   local n
   for n in 450 900 1350 1800; do measured points $((64 * n)) "$n" 9 20 1 2; done
   for n in 3 9 18 27 36; do measured vehicles "$n" 1200 "$n" 20 1 2; done
-  for n in 10 20 40 60; do measured images_per_s "$n" 1200 9 "$n" 1 2; done
+  for n in 15 20 30 60; do measured images_per_s "$n" 1200 9 "$n" 1 2; done
   for n in 1 2 3 4 5 6 7; do measured cameras "$n" 1200 9 20 "$n" 2; done
   for n in 2 4 8 16; do measured seconds "$n" 1200 9 20 1 "$n"; done
 }
@@ -57,8 +57,8 @@ set datafile separator ","
 set multiplot layout 2,3 title "Milliseconds of the cores per virtual scan"
 set yrange [0:*]; set xrange [0:*]; unset key; set grid
 do for [what in "points vehicles images_per_s cameras seconds"] {
-  set xlabel (what eq "images_per_s" ? "pictures a second" : what eq "points" ? "beams of a scan" : what eq "seconds" ? "seconds of log" : what)
-  plot "< grep ^" . what . ", $out/scaling.csv" using 2:6 with linespoints linewidth 2 pointtype 7 linecolor rgb "#2060a0"
+  set xlabel (what eq "images_per_s" ? "pictures a second" : what eq "points" ? "thousand beams of a scan" : what eq "seconds" ? "seconds of log" : what)
+  plot "< grep ^" . what . ", $out/scaling.csv" using (\$2 / (what eq "points" ? 1000 : 1)):6 with linespoints linewidth 2 pointtype 7 linecolor rgb "#2060a0"
 }
 set xlabel "seconds of log"; set title "megabytes at most"
 plot "< grep ^seconds, $out/scaling.csv" using 2:7 with linespoints linewidth 2 pointtype 7 linecolor rgb "#a04020"
