@@ -88,6 +88,8 @@ void add_level(const ObjectFit& problem, const Pose& T, Matrix6d& H, Twist& b) {
   b[5] -= weight(problem.options.height_sigma_m) * rise;
 }
 
+constexpr auto kFarthest = static_cast<float>(kScoreCut * kScoreCut);  // m^2
+
 /// @param sq_distance of a place to the target, as far as it counts; of the i-th point.
 template <typename Distance>
 double score_by(const ObjectFit& fit, const Pose& T_target_object, int stride,
@@ -116,7 +118,6 @@ double score_by_matches(const ObjectFit& fit, const Pose& T_target_object,
   const auto reach = static_cast<float>(fit.options.max_correspondence_m);
   return score_by(fit, T_target_object, 1, [&](const Eigen::Vector3f& place, std::size_t i) {
     look_up(fit.target, place, reach, matches[i]);
-    constexpr auto kFarthest = static_cast<float>(kScoreCut * kScoreCut);
     if (matches[i].index < 0) return kFarthest;
     return std::min(kFarthest, (fit.target.points()[matches[i].index] - place).squaredNorm());
   });
@@ -129,7 +130,6 @@ Sight sight_in(const ObjectFit& fit, const Eigen::Vector3f& place) {
 }
 
 double score_of(const ObjectFit& fit, const Pose& T_target_object, int stride) {
-  constexpr auto kFarthest = static_cast<float>(kScoreCut * kScoreCut);
   return score_by(fit, T_target_object, stride, [&](const Eigen::Vector3f& place, std::size_t) {
     return fit.target.nearest(place, kFarthest).sq_distance;
   });

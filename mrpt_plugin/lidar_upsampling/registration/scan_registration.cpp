@@ -22,11 +22,11 @@ namespace {
 constexpr double kVoxel_m = 0.5;                       // both scans: one point per cube
 constexpr std::size_t kMaxPoints = 5000;               // of the source, after thinning
 constexpr double kMinRange_m = 2.5, kMaxRange_m = 80;  // nearer points are the vehicle itself
-constexpr double kMaxNearestPoint_m = 1.5;
+constexpr double kMaxCorrespondence_m = 1.5;
 constexpr double kKernel_m = 0.1;        // Geman-McClure scale at the end, a fifth of the first
 constexpr double kMinInlierShare = 0.4;  // points nearer than three kernel scales to their plane
 constexpr int kMaxIterations = 30;
-constexpr int kMinNearestPoints = 60;
+constexpr int kMinCorrespondences = 60;
 // A direction counts as free if this share of the points would hold it: the normals' own noise
 // does.
 constexpr double kMinHold = 0.002;
@@ -50,7 +50,7 @@ std::vector<Eigen::Vector3f> thinned(const std::vector<Eigen::Vector3f>& points)
 
 /// @param match in and out, of the iteration before and of this one.
 void match_point(const Eigen::Vector3f& point, const Surface& target, Match& match) {
-  constexpr auto kReach_m = static_cast<float>(kMaxNearestPoint_m);
+  constexpr auto kReach_m = static_cast<float>(kMaxCorrespondence_m);
   match.valid = false;
   look_up(target, point, kReach_m, match.nearest);
   if (match.nearest.index < 0) return;
@@ -119,7 +119,7 @@ std::optional<Registration> iterate(const std::vector<Eigen::Vector3f>& source,
   for (int i = 0; i < kMaxIterations; ++i) {
     match_all(source, target, result.T_target_source, matches);
     sum = accumulate(matches, scale, 3 * kKernel_m);
-    if (sum.num_matches < kMinNearestPoints) {
+    if (sum.num_matches < kMinCorrespondences) {
       return std::nullopt;
     }
     const Twist step = sum.H.ldlt().solve(sum.b);
@@ -151,7 +151,7 @@ std::optional<Registration> register_scans(const std::vector<Eigen::Vector3f>& p
   std::vector<Eigen::Vector3f> source, target;
   tbb::parallel_invoke([&] { source = evenly_thinned(thinned(points_source), kMaxPoints); },
                        [&] { target = thinned(points_target); });
-  if (source.size() < kMinNearestPoints || target.size() < kMinNearestPoints) {
+  if (source.size() < kMinCorrespondences || target.size() < kMinCorrespondences) {
     return std::nullopt;
   }
   const Surface surface = Surface(std::move(target));
