@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <opencv2/imgproc.hpp>
 #include <opencv2/video/tracking.hpp>
 #include <stdexcept>
@@ -17,7 +18,26 @@
 namespace lidar_upsampling {
 namespace {
 
+constexpr std::size_t kPatchesAtOnce = 32;
+constexpr float kAlike = 0.4F;    // of its contrast, by which a patch may differ from where it lies
+constexpr double kIsThere = 0.5;  // of a surface's points that look alike where they are expected
 constexpr double kSmoothing_px = 0.7;  // sigma of a blur: interpolation errs on sharp edges
+
+/// What is to be followed.
+struct Patches {
+  const ImagePyramid &from, &to;
+  const std::vector<cv::Point2f>& points;
+  const std::vector<cv::Point2f>& guesses;
+  const PointLabels* labels;
+
+  [[nodiscard]] std::vector<float> own(std::size_t i) const {
+    if (labels == nullptr) return {};
+    return own_pixels(labels->surfaces, labels->of_point[i], points[i]);
+  }
+  [[nodiscard]] int surface(std::size_t i) const {
+    return labels == nullptr ? 0 : labels->of_point[i];
+  }
+};
 
 struct Flow {
   std::vector<cv::Point2f> points;
@@ -71,34 +91,85 @@ std::vector<std::uint8_t> come_back(const ImagePyramid& from, const ImagePyramid
   return result;
 }
 
-/// What aligns better, from where Lucas-Kanade has ended or, of a patch that shows others, too,
-/// which pull it along, from the guess.
-void align_all(const ImagePyramid& from, const ImagePyramid& to,
-               const std::vector<cv::Point2f>& points, const std::vector<cv::Point2f>& guesses,
-               const PointLabels* labels, KltResult& result) {
-  constexpr std::size_t kGrainSize = 32;
-  constexpr float kSameStart_px = 0.25F;  // as steps are whole pixels at first, they end alike
-  const auto align_one = [&](std::size_t i) {
-    std::vector<float> own;
-    if (labels != nullptr) own = own_pixels(labels->surfaces, labels->of_point[i], points[i]);
-    std::vector<cv::Point2f> starts;
-    if (result.tracked[i] != 0) starts.push_back(result.points[i]);
-    const auto is_new = [&](const cv::Point2f& start) {
-      const cv::Point2f apart = start - result.points[i];
-      return result.tracked[i] == 0 || std::hypot(apart.x, apart.y) > kSameStart_px;
-    };
-    if (!own.empty() && is_new(guesses[i])) starts.push_back(guesses[i]);
-    const auto best = align_patch(from.full(), to.full(), points[i], starts, own);
-    result.tracked[i] = best ? 1 : 0;
-    if (!best) return;
-    result.points[i] = best->point;
-    result.residual[i] = best->residual;
-    result.covariance[i] = best->covariance;
-  };
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, points.size(), kGrainSize),
+void note(const Alignment& alignment, std::size_t i, KltResult& result) {
+  result.tracked[i] = 1;
+  result.points[i] = alignment.point;
+  result.residual[i] = alignment.residual;
+  result.covariance[i] = alignment.covariance;
+}
+
+/// Calls `align_one` for each of so many points.
+template <typename Align>
+void for_each_patch(std::size_t count, const Align& align_one) {
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, kPatchesAtOnce),
                     [&](const tbb::blocked_range<std::size_t>& range) {
                       for (std::size_t i = range.begin(); i < range.end(); ++i) align_one(i);
                     });
+}
+
+void align_near(const Patches& patches, KltResult& result) {
+  for_each_patch(patches.points.size(), [&](std::size_t i) {
+    const auto found = align_patch(patches.from.full(), patches.to.full(), patches.points[i],
+                                   patches.guesses[i], patches.own(i));
+    if (found && found->residual < kAlike * found->contrast) note(*found, i, result);
+  });
+}
+
+/// The points of surfaces of which most are not found, which seem to be elsewhere: what looks alike
+/// does so by chance. A surface that is where it was expected has its other points hidden, or lit
+/// otherwise.
+std::vector<std::size_t> elsewhere(const Patches& patches, const KltResult& result) {
+  struct Count {
+    int all = 0, found = 0;
+  };
+  std::map<int, Count> surfaces;
+  for (std::size_t i = 0; i < result.tracked.size(); ++i) {
+    Count& count = surfaces[patches.surface(i)];
+    ++count.all;
+    count.found += result.tracked[i];
+  }
+  std::vector<std::size_t> which;
+  for (std::size_t i = 0; i < result.tracked.size(); ++i) {
+    const Count& count = surfaces[patches.surface(i)];
+    if (count.found < kIsThere * count.all) which.push_back(i);
+  }
+  return which;
+}
+
+/// What aligns better, from where Lucas-Kanade has ended or, of a patch that shows others, too,
+/// which pull it along, from the guess.
+/// @param which points the flow has.
+void align_found(const Patches& patches, const std::vector<std::size_t>& which, const Flow& flow,
+                 KltResult& result) {
+  constexpr float kSameStart_px = 0.25F;  // as steps are whole pixels at first, they end alike
+  for_each_patch(which.size(), [&](std::size_t k) {
+    const std::size_t i = which[k];
+    const cv::Point2f& guess = patches.guesses[i];
+    const std::vector<float> own = patches.own(i);
+    const cv::Point2f apart = guess - flow.points[k];
+    const bool is_new = flow.found[k] == 0 || std::hypot(apart.x, apart.y) > kSameStart_px;
+    std::vector<cv::Point2f> starts;
+    if (flow.found[k] != 0) starts.push_back(flow.points[k]);
+    if (!own.empty() && is_new) starts.push_back(guess);
+    const auto best =
+        align_patch(patches.from.full(), patches.to.full(), patches.points[i], starts, own);
+    result.tracked[i] = 0;
+    if (best) note(*best, i, result);
+  });
+}
+
+/// By Lucas-Kanade over all levels, there and back.
+void search(const Patches& patches, const std::vector<std::size_t>& which,
+            const KltOptions& options, KltResult& result) {
+  std::vector<cv::Point2f> points, guesses;
+  for (const std::size_t i : which) {
+    points.push_back(patches.points[i]);
+    guesses.push_back(patches.guesses[i]);
+  }
+  Flow flow =
+      track_one_way(patches.from, patches.to, points, guesses, options.pyramid_levels, options);
+  flow.found = come_back(patches.from, patches.to, points, flow, options);
+  align_found(patches, which, flow, result);
 }
 
 }  // namespace
@@ -148,12 +219,14 @@ KltResult track_points(const ImagePyramid& from, const ImagePyramid& to,
   KltResult result;
   if (points.empty()) return result;
   const std::vector<cv::Point2f>& starts = guesses.empty() ? points : guesses;
-  Flow forward = track_one_way(from, to, points, starts, options.pyramid_levels, options);
-  result.tracked = come_back(from, to, points, forward, options);
-  result.points = std::move(forward.points);
+  result.points = starts;
+  result.tracked.assign(points.size(), 0);
   result.residual.assign(points.size(), 0);
   result.covariance.assign(points.size(), Eigen::Matrix2f::Zero());
-  align_all(from, to, points, starts, labels, result);
+  const Patches patches{from, to, points, starts, labels};
+  align_near(patches, result);
+  const std::vector<std::size_t> to_search = elsewhere(patches, result);
+  if (!to_search.empty()) search(patches, to_search, options, result);
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (result.residual[i] > static_cast<float>(options.max_residual)) result.tracked[i] = 0;
   }

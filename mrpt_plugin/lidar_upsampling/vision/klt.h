@@ -57,9 +57,10 @@ struct PointLabels {
   std::vector<std::int16_t> of_point;
 };
 
-/// @brief Follows points from one picture to another by pyramidal Lucas-Kanade (Bouguet 2001),
-/// there and back (Kalal et al., ICPR 2010), then aligned by align_patch(). A point whose patch
-/// leaves either picture is not tracked.
+/// @brief Follows points from one picture to another: by align_patch() from where each is expected,
+/// and where most of a surface does not look alike there, by pyramidal Lucas-Kanade (Bouguet 2001),
+/// there and back (Kalal et al., ICPR 2010), aligned then. A point whose patch leaves either
+/// picture is not tracked.
 /// @param points pixels on the first picture.
 /// @param guesses where they may be on the second; as many as points, or none.
 /// @param labels where patches show more than their own surface, only that is compared, from where

@@ -165,8 +165,12 @@ std::optional<Alignment> align_from(const cv::Mat& image, const cv::Point2f& gue
   const float residual = Values(error.data(), kNumPixels).abs().sum();
   const Eigen::Matrix<float, 8, 2> by_shift =
       reference.solver.solve(Matrix8f::Identity().leftCols<2>());
+  const float contrast = (Values(reference.weight.data(), kNumPixels) *
+                          Values(reference.templ.contrast.data(), kNumPixels))
+                             .abs()
+                             .sum();
   return Alignment{guess + cv::Point2f(p[0], p[1]), residual / reference.weight_sum,
-                   sq(kGraySigma) * by_shift.topRows<2>()};
+                   contrast / reference.weight_sum, sq(kGraySigma) * by_shift.topRows<2>()};
 }
 
 }  // namespace

@@ -23,6 +23,7 @@ constexpr int kPatchHalf_px = 8;  ///< of a patch's side, without its middle
 struct Alignment {
   cv::Point2f point;   ///< on the second picture
   float residual = 0;  ///< mean absolute difference after the change of gain and bias, gray levels
+  float contrast = 0;  ///< mean absolute difference of the first picture's patch from its mean
   /// Of the point, px^2, by the texture and the expected noise, whatever the change of shape.
   Eigen::Matrix2f covariance = Eigen::Matrix2f::Zero();
 };
