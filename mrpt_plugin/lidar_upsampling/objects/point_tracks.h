@@ -13,7 +13,7 @@
 namespace lidar_upsampling {
 
 struct PointTrackOptions {
-  int max_points_per_object = 150;
+  int max_points_per_object = 100;
   int border_px = 8;        ///< nearer to the picture's border no point is taken
   bool own_surface = true;  ///< patches are compared where they show their object; off: the paper
 };
