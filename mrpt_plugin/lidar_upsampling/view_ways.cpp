@@ -3,6 +3,7 @@
 #include "lidar_upsampling/view_ways.h"
 
 #include <algorithm>
+#include <map>
 
 #include "lidar_upsampling/vision/projection.h"
 
@@ -19,32 +20,75 @@ cv::Point2f pixel_of(const CameraView& view, std::size_t i, const Pose& T_camera
                : view.points.last_px[i];
 }
 
-/// Follows some points once more; each owner keeps what looks more like it.
-void follow_again(CameraView& view, const Picture& picture, const std::vector<std::size_t>& which,
-                  const std::vector<cv::Point2f>& guesses, std::size_t num_owners,
-                  const KltOptions& options) {
-  if (which.empty()) return;
-  PointTracks& points = view.points;
-  std::vector<cv::Point2f> from;
-  for (const std::size_t i : which) from.push_back(points.anchor_px[i]);
-  const PointLabels labels = labels_of(points, which);
-  const KltResult again =
-      track_points(view.anchor->pyramid, picture.pyramid, from, guesses, options, &labels);
+/// Points that may have gone one way, and where they then are.
+struct Start {
+  std::vector<std::size_t> which;
+  std::vector<cv::Point2f> guesses;
+};
+
+/// One per way.
+std::vector<Start> starts_of(const CameraView& view, const Pose& T_camera_t_lidar_k,
+                             const std::vector<std::vector<Pose>>& ways) {
+  const PointTracks& points = view.points;
+  std::vector<Start> starts(1);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const std::size_t count = points.owner[i] < 0 ? 1 : ways[points.owner[i]].size();
+    if (starts.size() < count) starts.resize(count);
+    for (std::size_t way = 0; way < count; ++way) {
+      starts[way].which.push_back(i);
+      starts[way].guesses.push_back(
+          pixel_of(view, i, T_camera_t_lidar_k,
+                   points.owner[i] < 0 ? Pose::Identity() : ways[points.owner[i]][way]));
+    }
+  }
+  return starts;
+}
+
+/// Points of the likeliest ways go on from where they were found last.
+void start_where_last_found(Start& likeliest, PointTracks& points) {
+  const std::vector<cv::Point2f> expected = likeliest.guesses;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    if (points.found[i] != 0)
+      likeliest.guesses[i] = points.last_px[i] + (expected[i] - points.predicted_px[i]);
+  points.predicted_px = expected;
+}
+
+void forget(PointTracks& points, const std::vector<std::size_t>& which) {
+  for (const std::size_t i : which) points.found[i] = 0;
+}
+
+/// Each owner keeps what looks more like it: what is known or what was found now.
+void keep_better(PointTracks& points, const std::vector<std::size_t>& which, const KltResult& now,
+                 const KltOptions& options) {
   const auto likeness = [&](std::uint8_t found, float residual) {
     return found != 0 ? options.max_residual - residual : 0;
   };
-  std::vector<double> gained(num_owners, 0);
+  std::map<int, double> gained;
   for (std::size_t j = 0; j < which.size(); ++j)
-    gained[points.owner[which[j]]] += likeness(again.tracked[j], again.residual[j]) -
+    gained[points.owner[which[j]]] += likeness(now.tracked[j], now.residual[j]) -
                                       likeness(points.found[which[j]], points.residual[which[j]]);
   for (std::size_t j = 0; j < which.size(); ++j) {
     const std::size_t i = which[j];
     if (gained[points.owner[i]] <= 0) continue;
-    points.found[i] = again.tracked[j];
-    points.residual[i] = again.residual[j];
-    points.covariance[i] = again.covariance[j];
-    if (again.tracked[j] != 0) points.last_px[i] = again.points[j];
+    points.found[i] = now.tracked[j];
+    points.residual[i] = now.residual[j];
+    points.covariance[i] = now.covariance[j];
+    if (now.tracked[j] != 0) points.last_px[i] = now.points[j];
   }
+}
+
+/// Of a start, the points that are asked for, too.
+Start part_of(const Start& start, const std::vector<std::size_t>& asked) {
+  Start part;
+  auto next = asked.begin();
+  for (std::size_t j = 0; j < start.which.size(); ++j) {
+    next = std::lower_bound(next, asked.end(), start.which[j]);
+    if (next == asked.end()) break;
+    if (*next != start.which[j]) continue;
+    part.which.push_back(start.which[j]);
+    part.guesses.push_back(start.guesses[j]);
+  }
+  return part;
 }
 
 }  // namespace
@@ -52,24 +96,21 @@ void follow_again(CameraView& view, const Picture& picture, const std::vector<st
 void follow_ways(CameraView& view, const Picture& picture, const Pose& T_camera_t_lidar_k,
                  const std::vector<std::vector<Pose>>& ways, const KltOptions& options) {
   PointTracks& points = view.points;
-  std::vector<cv::Point2f> expected(points.size());
-  for (std::size_t i = 0; i < points.size(); ++i)
-    expected[i] = pixel_of(view, i, T_camera_t_lidar_k,
-                           points.owner[i] < 0 ? Pose::Identity() : ways[points.owner[i]].front());
-  follow_points(points, view.anchor->pyramid, picture.pyramid, expected, options);
-
-  std::size_t most = 1;
-  for (const auto& motions : ways) most = std::max(most, motions.size());
-  for (std::size_t way = 1; way < most; ++way) {
-    std::vector<std::size_t> which;
-    std::vector<cv::Point2f> guesses;
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      if (points.owner[i] < 0 || ways[points.owner[i]].size() <= way) continue;
-      which.push_back(i);
-      guesses.push_back(pixel_of(view, i, T_camera_t_lidar_k, ways[points.owner[i]][way]));
-    }
-    follow_again(view, picture, which, guesses, ways.size(), options);
-  }
+  std::vector<Start> starts = starts_of(view, T_camera_t_lidar_k, ways);
+  start_where_last_found(starts.front(), points);
+  const auto follow = [&](const Start& start, const auto& follow_points) {
+    if (start.which.empty()) return;
+    std::vector<cv::Point2f> from;
+    for (const std::size_t i : start.which) from.push_back(points.anchor_px[i]);
+    const PointLabels labels = labels_of(points, start.which);
+    const Patches patches{view.anchor->pyramid, picture.pyramid, from, start.guesses, &labels};
+    keep_better(points, start.which, follow_points(patches, options), options);
+  };
+  forget(points, starts.front().which);
+  for (const Start& start : starts) follow(start, align_points);
+  const std::vector<std::size_t> lost = points_elsewhere(points.owner, points.found);
+  forget(points, lost);
+  for (const Start& start : starts) follow(part_of(start, lost), search_points);
 }
 
 }  // namespace lidar_upsampling

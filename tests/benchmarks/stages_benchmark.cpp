@@ -145,13 +145,17 @@ void camera_ego(benchmark::State& state) {
       {in.projected, in.unreliable, no_candidates, in.texture.size(), in.texture});
   PointTracks tracks;
   add_points(tracks, in.projected, chosen, in.scan, kStaticOwner);
-  follow_points(tracks, in.key_pyramid, in.next_pyramid, predicted(in, chosen), {});
+  const KltResult found =
+      track_points(in.key_pyramid, in.next_pyramid, tracks.anchor_px, predicted(in, chosen));
+  tracks.last_px = found.points;
+  tracks.found = found.tracked;
+  tracks.covariance = found.covariance;
   const auto pairs = correspondences_of(tracks, kStaticOwner);
-  bool found = true;
+  bool is_found = true;
   while (state.KeepRunning())
-    found =
+    is_found =
         estimate_camera_ego(pairs, in.camera, in.T_camera_lidar, {}, Pose::Identity()).has_value();
-  if (!found) return state.SkipWithError("no consensus");
+  if (!is_found) return state.SkipWithError("no consensus");
   state.counters["tracked"] = static_cast<double>(pairs.size());
 }
 

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 namespace lidar_upsampling {
 
@@ -61,27 +60,6 @@ void add_points(PointTracks& tracks, const std::vector<ProjectedPoint>& projecte
     tracks.residual.push_back(0);
     tracks.covariance.emplace_back(Eigen::Matrix2f::Zero());
   }
-}
-
-void follow_points(PointTracks& tracks, const ImagePyramid& anchor, const ImagePyramid& next,
-                   const std::vector<cv::Point2f>& predicted_px, const KltOptions& options) {
-  if (tracks.size() == 0) return;
-  std::vector<cv::Point2f> guesses(tracks.size());
-  for (std::size_t i = 0; i < guesses.size(); ++i)
-    guesses[i] = tracks.found[i] != 0
-                     ? tracks.last_px[i] + (predicted_px[i] - tracks.predicted_px[i])
-                     : predicted_px[i];
-  std::vector<std::size_t> all(tracks.size());
-  std::iota(all.begin(), all.end(), std::size_t{0});
-  const PointLabels labels = labels_of(tracks, all);
-  const KltResult result = track_points(anchor, next, tracks.anchor_px, guesses, options, &labels);
-  for (std::size_t i = 0; i < guesses.size(); ++i) {
-    tracks.found[i] = result.tracked[i];
-    tracks.residual[i] = result.residual[i];
-    tracks.covariance[i] = result.covariance[i];
-    if (result.tracked[i] != 0) tracks.last_px[i] = result.points[i];
-  }
-  tracks.predicted_px = predicted_px;
 }
 
 PointLabels labels_of(const PointTracks& tracks, const std::vector<std::size_t>& which) {

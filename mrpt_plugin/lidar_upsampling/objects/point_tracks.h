@@ -48,12 +48,6 @@ struct PointTracks {
 void add_points(PointTracks& tracks, const std::vector<ProjectedPoint>& projected,
                 const std::vector<int>& chosen, const LidarScan& key_scan, int owner);
 
-/// @brief Finds the points on the next image. The picture around each is always the anchor's, so no
-/// drift adds up over images; the search starts where the motion since the last image leads.
-/// @param predicted_px where each point is expected by the motion model.
-void follow_points(PointTracks& tracks, const ImagePyramid& anchor, const ImagePyramid& next,
-                   const std::vector<cv::Point2f>& predicted_px, const KltOptions& options);
-
 /// The surfaces that some of the points belong to.
 [[nodiscard]] PointLabels labels_of(const PointTracks& tracks,
                                     const std::vector<std::size_t>& which);

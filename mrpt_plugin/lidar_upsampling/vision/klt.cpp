@@ -23,22 +23,6 @@ constexpr float kAlike = 0.4F;    // of its contrast, by which a patch may diffe
 constexpr double kIsThere = 0.5;  // of a surface's points that look alike where they are expected
 constexpr double kSmoothing_px = 0.7;  // sigma of a blur: interpolation errs on sharp edges
 
-/// What is to be followed.
-struct Patches {
-  const ImagePyramid &from, &to;
-  const std::vector<cv::Point2f>& points;
-  const std::vector<cv::Point2f>& guesses;
-  const PointLabels* labels;
-
-  [[nodiscard]] std::vector<float> own(std::size_t i) const {
-    if (labels == nullptr) return {};
-    return own_pixels(labels->surfaces, labels->of_point[i], points[i]);
-  }
-  [[nodiscard]] int surface(std::size_t i) const {
-    return labels == nullptr ? 0 : labels->of_point[i];
-  }
-};
-
 struct Flow {
   std::vector<cv::Point2f> points;
   std::vector<std::uint8_t> found;
@@ -91,6 +75,17 @@ std::vector<std::uint8_t> come_back(const ImagePyramid& from, const ImagePyramid
   return result;
 }
 
+std::vector<float> own_of(const Patches& patches, std::size_t i) {
+  if (patches.labels == nullptr) return {};
+  return own_pixels(patches.labels->surfaces, patches.labels->of_point[i], patches.points[i]);
+}
+
+KltResult nothing_tracked(const Patches& patches) {
+  const std::size_t count = patches.points.size();
+  return {patches.guesses, std::vector<std::uint8_t>(count, 0), std::vector<float>(count, 0),
+          std::vector<Eigen::Matrix2f>(count, Eigen::Matrix2f::Zero())};
+}
+
 void note(const Alignment& alignment, std::size_t i, KltResult& result) {
   result.tracked[i] = 1;
   result.points[i] = alignment.point;
@@ -107,69 +102,20 @@ void for_each_patch(std::size_t count, const Align& align_one) {
                     });
 }
 
-void align_near(const Patches& patches, KltResult& result) {
-  for_each_patch(patches.points.size(), [&](std::size_t i) {
-    const auto found = align_patch(patches.from.full(), patches.to.full(), patches.points[i],
-                                   patches.guesses[i], patches.own(i));
-    if (found && found->residual < kAlike * found->contrast) note(*found, i, result);
-  });
+void drop_unlike(KltResult& result, const KltOptions& options) {
+  for (std::size_t i = 0; i < result.tracked.size(); ++i)
+    if (result.residual[i] > static_cast<float>(options.max_residual)) result.tracked[i] = 0;
 }
 
-/// The points of surfaces of which most are not found, which seem to be elsewhere: what looks alike
-/// does so by chance. A surface that is where it was expected has its other points hidden, or lit
-/// otherwise.
-std::vector<std::size_t> elsewhere(const Patches& patches, const KltResult& result) {
-  struct Count {
-    int all = 0, found = 0;
-  };
-  std::map<int, Count> surfaces;
-  for (std::size_t i = 0; i < result.tracked.size(); ++i) {
-    Count& count = surfaces[patches.surface(i)];
-    ++count.all;
-    count.found += result.tracked[i];
-  }
-  std::vector<std::size_t> which;
-  for (std::size_t i = 0; i < result.tracked.size(); ++i) {
-    const Count& count = surfaces[patches.surface(i)];
-    if (count.found < kIsThere * count.all) which.push_back(i);
-  }
-  return which;
-}
-
-/// What aligns better, from where Lucas-Kanade has ended or, of a patch that shows others, too,
-/// which pull it along, from the guess.
-/// @param which points the flow has.
-void align_found(const Patches& patches, const std::vector<std::size_t>& which, const Flow& flow,
-                 KltResult& result) {
-  constexpr float kSameStart_px = 0.25F;  // as steps are whole pixels at first, they end alike
-  for_each_patch(which.size(), [&](std::size_t k) {
-    const std::size_t i = which[k];
-    const cv::Point2f& guess = patches.guesses[i];
-    const std::vector<float> own = patches.own(i);
-    const cv::Point2f apart = guess - flow.points[k];
-    const bool is_new = flow.found[k] == 0 || std::hypot(apart.x, apart.y) > kSameStart_px;
-    std::vector<cv::Point2f> starts;
-    if (flow.found[k] != 0) starts.push_back(flow.points[k]);
-    if (!own.empty() && is_new) starts.push_back(guess);
-    const auto best =
-        align_patch(patches.from.full(), patches.to.full(), patches.points[i], starts, own);
-    result.tracked[i] = 0;
-    if (best) note(*best, i, result);
-  });
-}
-
-/// By Lucas-Kanade over all levels, there and back.
-void search(const Patches& patches, const std::vector<std::size_t>& which,
-            const KltOptions& options, KltResult& result) {
-  std::vector<cv::Point2f> points, guesses;
-  for (const std::size_t i : which) {
-    points.push_back(patches.points[i]);
-    guesses.push_back(patches.guesses[i]);
-  }
-  Flow flow =
-      track_one_way(patches.from, patches.to, points, guesses, options.pyramid_levels, options);
-  flow.found = come_back(patches.from, patches.to, points, flow, options);
-  align_found(patches, which, flow, result);
+void check(const Patches& patches) {
+  const cv::Size from = patches.from.size(), to = patches.to.size();
+  if (from != to)
+    throw std::invalid_argument("klt: pictures of different sizes, " + std::to_string(from.width) +
+                                " x " + std::to_string(from.height) + " and " +
+                                std::to_string(to.width) + " x " + std::to_string(to.height));
+  if (patches.guesses.size() != patches.points.size())
+    throw std::invalid_argument("klt: " + std::to_string(patches.guesses.size()) + " guesses for " +
+                                std::to_string(patches.points.size()) + " points");
 }
 
 }  // namespace
@@ -201,36 +147,72 @@ ImagePyramid::ImagePyramid(const cv::Mat& gray, const KltOptions& options) {
   smooth.convertTo(full_, CV_32F);
 }
 
+KltResult align_points(const Patches& patches, const KltOptions& options) {
+  check(options);
+  check(patches);
+  KltResult result = nothing_tracked(patches);
+  for_each_patch(patches.points.size(), [&](std::size_t i) {
+    const auto found = align_patch(patches.from.full(), patches.to.full(), patches.points[i],
+                                   patches.guesses[i], own_of(patches, i));
+    if (found && found->residual < kAlike * found->contrast) note(*found, i, result);
+  });
+  drop_unlike(result, options);
+  return result;
+}
+
+KltResult search_points(const Patches& patches, const KltOptions& options) {
+  check(options);
+  check(patches);
+  KltResult result = nothing_tracked(patches);
+  if (patches.points.empty()) return result;
+  Flow flow = track_one_way(patches.from, patches.to, patches.points, patches.guesses,
+                            options.pyramid_levels, options);
+  flow.found = come_back(patches.from, patches.to, patches.points, flow, options);
+  constexpr float kSameStart_px = 0.25F;  // as steps are whole pixels at first, they end alike
+  for_each_patch(patches.points.size(), [&](std::size_t i) {
+    const cv::Point2f& guess = patches.guesses[i];
+    const std::vector<float> own = own_of(patches, i);
+    const cv::Point2f apart = guess - flow.points[i];
+    const bool is_new = flow.found[i] == 0 || std::hypot(apart.x, apart.y) > kSameStart_px;
+    std::vector<cv::Point2f> starts;
+    if (flow.found[i] != 0) starts.push_back(flow.points[i]);
+    if (!own.empty() && is_new) starts.push_back(guess);
+    const auto best =
+        align_patch(patches.from.full(), patches.to.full(), patches.points[i], starts, own);
+    if (best) note(*best, i, result);
+  });
+  drop_unlike(result, options);
+  return result;
+}
+
+std::vector<std::size_t> points_elsewhere(const std::vector<int>& surface,
+                                          const std::vector<std::uint8_t>& found) {
+  struct Count {
+    int all = 0, found = 0;
+  };
+  std::map<int, Count> surfaces;
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    Count& count = surfaces[surface[i]];
+    ++count.all;
+    count.found += found[i];
+  }
+  std::vector<std::size_t> which;
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    const Count& count = surfaces[surface[i]];
+    if (count.found < kIsThere * count.all) which.push_back(i);
+  }
+  return which;
+}
+
 KltResult track_points(const ImagePyramid& from, const ImagePyramid& to,
                        const std::vector<cv::Point2f>& points,
                        const std::vector<cv::Point2f>& guesses, const KltOptions& options,
                        const PointLabels* labels) {
-  check(options);
-  if (from.size() != to.size()) {
-    throw std::invalid_argument(
-        "klt: pictures of different sizes, " + std::to_string(from.size().width) + " x " +
-        std::to_string(from.size().height) + " and " + std::to_string(to.size().width) + " x " +
-        std::to_string(to.size().height));
-  }
-  if (!guesses.empty() && guesses.size() != points.size()) {
-    throw std::invalid_argument("klt: " + std::to_string(guesses.size()) + " guesses for " +
-                                std::to_string(points.size()) + " points");
-  }
-  KltResult result;
-  if (points.empty()) return result;
-  const std::vector<cv::Point2f>& starts = guesses.empty() ? points : guesses;
-  result.points = starts;
-  result.tracked.assign(points.size(), 0);
-  result.residual.assign(points.size(), 0);
-  result.covariance.assign(points.size(), Eigen::Matrix2f::Zero());
-  const Patches patches{from, to, points, starts, labels};
-  align_near(patches, result);
-  const std::vector<std::size_t> to_search = elsewhere(patches, result);
-  if (!to_search.empty()) search(patches, to_search, options, result);
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    if (result.residual[i] > static_cast<float>(options.max_residual)) result.tracked[i] = 0;
-  }
-  return result;
+  const Patches patches{from, to, points, guesses.empty() ? points : guesses, labels};
+  KltResult result = align_points(patches, options);
+  const std::vector<int> one_surface(points.size(), 0);
+  return points_elsewhere(one_surface, result.tracked).empty() ? result
+                                                               : search_points(patches, options);
 }
 
 }  // namespace lidar_upsampling

@@ -57,16 +57,36 @@ struct PointLabels {
   std::vector<std::int16_t> of_point;
 };
 
-/// @brief Follows points from one picture to another: by align_patch() from where each is expected,
-/// and where most of a surface does not look alike there, by pyramidal Lucas-Kanade (Bouguet 2001),
-/// there and back (Kalal et al., ICPR 2010), aligned then. A point whose patch leaves either
-/// picture is not tracked.
-/// @param points pixels on the first picture.
-/// @param guesses where they may be on the second; as many as points, or none.
-/// @param labels where patches show more than their own surface, only that is compared, from where
-/// Lucas-Kanade ends or from the guess, whichever fits better; null: patches show one surface.
+/// What is to be followed from one picture to another.
+struct Patches {
+  const ImagePyramid &from, &to;     ///< of one size
+  std::vector<cv::Point2f> points;   ///< pixels on the first picture
+  std::vector<cv::Point2f> guesses;  ///< where they may be on the second, as many
+  /// Where patches show more than their own surface, only that is compared; null: they show one.
+  const PointLabels* labels = nullptr;
+};
+
+/// @brief Brings the patches to lie where they are guessed, by align_patch(); those that do not
+/// look alike there are not tracked. A point whose patch leaves either picture is never tracked.
 /// @throw std::invalid_argument pictures of different sizes; guesses of another number.
-/// @throw cv::Exception a pyramid made for a smaller window.
+[[nodiscard]] KltResult align_points(const Patches& patches, const KltOptions& options);
+
+/// @brief Searches for them by pyramidal Lucas-Kanade (Bouguet 2001), there and back (Kalal et al.,
+/// ICPR 2010), and aligns them then, from where it ends or, if a patch shows others, too, from the
+/// guess, whichever fits better.
+/// @throw std::invalid_argument as above. @throw cv::Exception a pyramid made for a smaller window.
+[[nodiscard]] KltResult search_points(const Patches& patches, const KltOptions& options);
+
+/// @brief The points of surfaces of which most are not found: they seem to be elsewhere, and what
+/// looks alike does so by chance. A surface that is where it was expected has its other points
+/// hidden, or lit otherwise.
+/// @param surface of each point.
+[[nodiscard]] std::vector<std::size_t> points_elsewhere(const std::vector<int>& surface,
+                                                        const std::vector<std::uint8_t>& found);
+
+/// @brief Aligns the points of one surface, or searches for them if they are elsewhere.
+/// @param guesses none: where they are on the first picture.
+/// @throw std::invalid_argument, cv::Exception as above.
 [[nodiscard]] KltResult track_points(const ImagePyramid& from, const ImagePyramid& to,
                                      const std::vector<cv::Point2f>& points,
                                      const std::vector<cv::Point2f>& guesses = {},
