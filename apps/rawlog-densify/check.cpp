@@ -13,6 +13,7 @@
 #include <set>
 #include <stdexcept>
 
+#include "drawing.h"
 #include "lidar_upsampling/front_end/pose_input.h"
 #include "lidar_upsampling/io/carriers.h"
 #include "lidar_upsampling/io/images.h"
@@ -20,7 +21,6 @@
 #include "lidar_upsampling/registration/scan_registration.h"
 #include "lidar_upsampling/scan/sweep.h"
 #include "lidar_upsampling/vision/projection.h"
-#include "pictures.h"
 #include "streams.h"
 
 namespace lidar_upsampling {

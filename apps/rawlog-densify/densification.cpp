@@ -33,6 +33,7 @@ Densification::Densification(const DensifyJob& job, const LogIndex& index, Densi
   report.camera_time_offset_ms = job.config.timing.camera_time_offset_ms;
   report.ego_source = to_string(upsampler_.ego_motion().source());
   if (!job.pictures.empty()) pictures_.emplace(job.pictures);
+  if (!job.film.empty()) film_.emplace(job.film);
   if (job.config.mode == "offline") ahead_.emplace(lidar_label_, job.rig);
 }
 
@@ -86,6 +87,10 @@ std::optional<VirtualScan> Densification::feed(const CObservation::Ptr& observat
 
 std::optional<VirtualScan> Densification::flush() { return noted(upsampler_.flush()); }
 
+void Densification::finish() {
+  if (film_ && !film_->finish()) report_.warn("fewer than two virtual scans: no film is made");
+}
+
 std::optional<VirtualScan> Densification::feed_scan(const CObservation::Ptr& observation) {
   ++report_.num_scans;
   ++num_fed_;
@@ -105,6 +110,7 @@ std::optional<VirtualScan> Densification::feed_scan(const CObservation::Ptr& obs
   if (learns_) upsampler_.ego_motion().forget_before(shifted(last_stamp_, -kEgoMemory_s));
   last_stamp_ = scan->stamp;
   if (pictures_) pictures_->real_scan(*scan);
+  if (film_) film_->real_scan(*scan);
   expect_scans();
   return upsampler_.insert_scan(std::move(*scan));
 }
@@ -142,6 +148,7 @@ std::optional<VirtualScan> Densification::feed_image(CObservation& observation) 
   }
   apply(job_.rig, image.camera);
   if (pictures_) pictures_->image(image);
+  if (film_) film_->image(image);
   return upsampler_.insert_image(image);
 }
 
@@ -149,6 +156,7 @@ std::optional<VirtualScan> Densification::noted(std::optional<VirtualScan> scan)
   if (!scan) return scan;
   report_.add(*scan, job_.keep_rows);
   if (pictures_) pictures_->virtual_scan(*scan);
+  if (film_) film_->virtual_scan(*scan);
   return scan;
 }
 

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "densify.h"
+#include "film.h"
 #include "lidar_upsampling/io/log_index.h"
 #include "lidar_upsampling/upsampler.h"
 #include "pictures.h"
@@ -30,8 +31,8 @@ struct EgoComesLate : std::runtime_error {
 /// virtual scans come out.
 class Densification {
  public:
-  /// @param job only its settings and its folder of pictures are used. Must outlive the run, as the
-  /// report must.
+  /// @param job only its settings, its folder of pictures and its film are used. Must outlive the
+  /// run, as the report must.
   /// @param index of the whole log, or of its beginning. @throw std::runtime_error as
   /// select_streams()
   Densification(const DensifyJob& job, const LogIndex& index, DensifyReport& report);
@@ -50,6 +51,8 @@ class Densification {
 
   /// @return the virtual scan that still waits for other cameras, if any.
   [[nodiscard]] std::optional<VirtualScan> flush();
+  /// The film, if one is asked for, appears. @throw std::runtime_error it cannot.
+  void finish();
 
   /// The last real scan as the log held it; null before the first.
   [[nodiscard]] const mrpt::obs::CObservation::Ptr& last_real() const { return last_real_; }
@@ -72,6 +75,7 @@ class Densification {
   std::size_t num_streams_ = 0, num_stamps_ = 0;  ///< of the log, of the LiDAR: that are known
   std::set<std::string> camera_labels_;
   std::optional<Pictures> pictures_;
+  std::optional<Film> film_;
   std::optional<ScansAhead> ahead_;  ///< with mode = offline
   std::size_t num_fed_ = 0;          ///< scans, readable or not
   std::size_t num_expected_ = 0;     ///< scans that were told ahead

@@ -174,6 +174,7 @@ PartReport attempt(const DensifyJob& job, const LogPart& part, bool know_all,
     tell(before + (1 - before) * input.progress());
   }
   for (const auto& observation : run.flush()) output.write(*observation);
+  run.run().finish();
   output.commit();
   return done;
 }

@@ -16,6 +16,7 @@ namespace lidar_upsampling {
 struct DensifyJob {
   std::string input, output;
   std::string pictures;  ///< folder for pictures, empty: none
+  std::string film;      ///< empty: none
   bool overwrite = false;
   bool accept_truncated = false;  ///< keep what is readable of a broken log
   bool keep_rows = false;         ///< a report row per object and image

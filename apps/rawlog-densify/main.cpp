@@ -55,12 +55,16 @@ void add_settings(CLI::App& app, Request& request) {
 void add_files(CLI::App& app, Request& request) {
   DensifyJob& job = request.job;
   app.add_option("--input", request.inputs,
-                 "the log to densify (.rawlog, plain or gzip); of several, output, report and "
-                 "pictures are folders");
+                 "the log to densify (.rawlog, plain or gzip); of several, output, report, film "
+                 "and pictures are folders");
   app.add_option("--output", job.output, "the densified log");
   app.add_option("--report", request.report,
                  "counts, times, and a row per object and image (JSON)");
   app.add_option("--pictures", job.pictures, "folder for pictures of every virtual scan");
+  app.add_option(
+      "--film", job.film,
+      "a film (.mp4, .avi, .mkv), slowed down three times: the camera, and from above the "
+      "scans as the sensor took them beside those with virtual ones");
 }
 
 void add_ways_to_work(CLI::App& app, Request& request) {

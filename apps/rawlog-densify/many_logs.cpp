@@ -35,11 +35,13 @@ std::vector<LogJob> jobs_of(const std::vector<std::string>& inputs, const Densif
     one.job.input = input;
     one.job.output = (fs::path(job.output) / name).string();
     if (!job.pictures.empty()) one.job.pictures = (fs::path(job.pictures) / stem).string();
+    if (!job.film.empty()) one.job.film = (fs::path(job.film) / (stem + ".mp4")).string();
     if (!report.empty()) one.report = (fs::path(report) / (stem + ".json")).string();
     jobs.push_back(std::move(one));
   }
   if (!report.empty()) fs::create_directories(report);
-  if (!job.pictures.empty()) fs::create_directories(job.pictures);
+  for (const std::string& folder : {job.pictures, job.film})
+    if (!folder.empty()) fs::create_directories(folder);
   return jobs;
 }
 

@@ -116,9 +116,9 @@ std::vector<PartReport> densify_side_by_side(const DensifyJob& job,
 
 DensifyReport densify_in_parts(const DensifyJob& job, const PartOptions& options,
                                const std::function<void(double)>& progress) {
-  if (!job.pictures.empty())
+  if (!job.pictures.empty() || !job.film.empty())
     throw std::runtime_error(
-        "--pictures are drawn from the log's begin to its end: with one input "
+        "--pictures and --film are drawn from the log's begin to its end: with one input "
         "they need --jobs 1");
   // Whether it can be written is told before the work.
   static_cast<void>(RawlogWriter(job.output, job.overwrite));

@@ -3,15 +3,14 @@
 #pragma once
 
 #include <map>
+#include <opencv2/core/mat.hpp>
 #include <string>
 #include <vector>
 
+#include "bird_view.h"
 #include "lidar_upsampling/types.h"
 
 namespace lidar_upsampling {
-
-/// A scan of a picture's instant on the picture, coloured by depth: red near, blue far.
-[[nodiscard]] cv::Mat overlay(const LidarScan& scan, const CameraImage& image);
 
 /// @brief Pictures of virtual scans: on the camera image, coloured by depth, and from above beside
 /// the last real scan, with the trails of moving objects.
@@ -20,7 +19,7 @@ class Pictures {
   /// @throw std::runtime_error the folder cannot be made.
   explicit Pictures(std::string folder);
 
-  void real_scan(const LidarScan& scan) { real_ = scan; }
+  void real_scan(const LidarScan& scan);
   void image(const CameraImage& image) { images_[image.camera.label] = image; }
 
   /// Writes `<number>_<camera>.png` for each camera that took its picture then, and
@@ -28,19 +27,14 @@ class Pictures {
   void virtual_scan(const VirtualScan& scan);
 
  private:
-  struct TrailPoint {
-    Stamp stamp;
-    Eigen::Vector3d position_at_rest;
-  };
-  void remember_trails(const VirtualScan& scan);
-  [[nodiscard]] cv::Mat from_above(const VirtualScan& scan) const;
   void write(const std::string& name, const cv::Mat& picture) const;
 
   std::string folder_;
   int number_ = 0;
   LidarScan real_;
   std::map<std::string, CameraImage> images_;
-  std::map<int, std::vector<TrailPoint>> trails_;
+  Trails trails_;
+  BirdView view_;  ///< by the first scan
 };
 
 }  // namespace lidar_upsampling

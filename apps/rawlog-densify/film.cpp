@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the lidar_upsampling authors
+#include "film.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <opencv2/imgproc.hpp>
+#include <stdexcept>
+
+#include "drawing.h"
+
+namespace lidar_upsampling {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kPanel_px = 560, kWidth_px = 2 * kPanel_px + 8;
+constexpr double kSlower = 3;  // than it was
+
+/// With black beside it, if it would be higher than half of a panel.
+cv::Mat fitted(const cv::Mat& picture) {
+  constexpr int kHighest_px = 420;
+  const double scale =
+      std::min(double(kWidth_px) / picture.cols, double(kHighest_px) / picture.rows);
+  cv::Mat small;
+  cv::resize(picture, small, {}, scale, scale, scale < 1 ? cv::INTER_AREA : cv::INTER_LINEAR);
+  cv::Mat result(small.rows / 2 * 2, kWidth_px, CV_8UC3, cv::Scalar::all(0));
+  const int left = (kWidth_px - small.cols) / 2;
+  small.rowRange(0, result.rows).copyTo(result.colRange(left, left + small.cols));
+  return result;
+}
+
+int code_for(const std::string& path) {
+  return fs::path(path).extension() == ".avi" ? cv::VideoWriter::fourcc('M', 'J', 'P', 'G')
+                                              : cv::VideoWriter::fourcc('a', 'v', 'c', '1');
+}
+
+}  // namespace
+
+Film::Film(std::string path) : path_(std::move(path)) {
+  const fs::path whole(path_);
+  const std::string ending = whole.extension();
+  if (ending != ".mp4" && ending != ".avi" && ending != ".mkv")
+    throw std::runtime_error(path_ + ": a film ends in .mp4, .avi or .mkv");
+  unfinished_ =
+      whole.parent_path() / ("." + whole.stem().string() + "." + std::to_string(getpid()) + ending);
+}
+
+Film::~Film() {
+  writer_.release();
+  std::error_code none;
+  fs::remove(unfinished_, none);
+}
+
+void Film::real_scan(const LidarScan& scan) {
+  if (!real_) view_ = BirdView::for_scan(scan, kPanel_px);
+  real_ = scan;
+}
+
+void Film::image(const CameraImage& image) {
+  constexpr std::size_t kMost = 20;  // more than lie between two scans
+  if (!images_.empty() && images_.front().camera.label != image.camera.label) return;
+  images_.push_back(image);
+  if (images_.size() > kMost) images_.pop_front();
+}
+
+const CameraImage* Film::image_at(Stamp stamp) const {
+  constexpr double kSame_s = 0.01;
+  for (const CameraImage& image : images_)
+    if (std::abs(seconds_between(image.stamp, stamp)) < kSame_s) return &image;
+  return nullptr;
+}
+
+void Film::virtual_scan(const VirtualScan& scan) {
+  if (!real_ || images_.empty()) return;
+  if (scan.key_stamp != last_key_ && real_->stamp == scan.key_stamp) {
+    const BirdScene key = scene_of_key(scan, *real_);
+    trails_.remember(key);
+    if (const CameraImage* image = image_at(scan.key_stamp))
+      add(scan.key_stamp, key, overlay(*real_, *image));
+  }
+  last_key_ = scan.key_stamp;
+  const BirdScene scene = scene_of(scan);
+  trails_.remember(scene);
+  if (const CameraImage* image = image_at(scan.scan.stamp))
+    add(scan.scan.stamp, scene, on_image(scan, *image));
+}
+
+void Film::add(Stamp stamp, const BirdScene& scene, const cv::Mat& camera) {
+  const std::vector<Camera> cameras{images_.front().camera};
+  BirdScene as_taken = scene_of(*real_);
+  as_taken.title = "as the sensor took it";
+  const cv::Mat left = from_above(as_taken, nullptr, {}, cameras, real_->T_vehicle_lidar, view_);
+  const cv::Mat right = from_above(scene, nullptr, trails_, cameras, real_->T_vehicle_lidar, view_);
+  const cv::Mat above = fitted(camera);
+  cv::Mat picture((above.rows + left.rows + 8) / 2 * 2, kWidth_px, CV_8UC3, cv::Scalar::all(0));
+  above.copyTo(picture.rowRange(0, above.rows));
+  const cv::Mat below = picture.rowRange(picture.rows - left.rows, picture.rows);
+  left.copyTo(below.colRange(0, left.cols));
+  right.copyTo(below.colRange(kWidth_px - right.cols, kWidth_px));
+  write({stamp, picture});
+}
+
+void Film::write(const Frame& frame) {
+  if (!writer_.isOpened() && !waiting_) {
+    waiting_ = frame;
+    return;
+  }
+  if (!writer_.isOpened()) {
+    const double interval_s = seconds_between(waiting_->stamp, frame.stamp);
+    const double rate = std::clamp(1 / (kSlower * std::max(1e-3, interval_s)), 1., 60.);
+    if (!writer_.open(unfinished_, code_for(path_), rate, frame.picture.size()))
+      throw std::runtime_error(path_ + ": OpenCV cannot write a film of this kind; try .avi");
+    writer_.write(waiting_->picture);
+  }
+  writer_.write(frame.picture);
+}
+
+bool Film::finish() {
+  if (!writer_.isOpened()) return false;
+  writer_.release();
+  fs::rename(unfinished_, path_);
+  return true;
+}
+
+}  // namespace lidar_upsampling

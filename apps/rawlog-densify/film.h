@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the lidar_upsampling authors
+#pragma once
+
+#include <deque>
+#include <opencv2/videoio.hpp>
+#include <optional>
+#include <string>
+
+#include "bird_view.h"
+#include "lidar_upsampling/types.h"
+
+namespace lidar_upsampling {
+
+/// @brief A film of a densification, slowed down: the camera above, below it from above on the left
+/// the scans as the sensor took them, on the right with virtual ones.
+class Film {
+ public:
+  /// @param path .mp4, .avi or .mkv; it appears when the film is finished.
+  /// @throw std::runtime_error another ending.
+  explicit Film(std::string path);
+  /// What is not finished leaves nothing.
+  ~Film();
+  Film(const Film&) = delete;
+  Film& operator=(const Film&) = delete;
+
+  void real_scan(const LidarScan& scan);
+  /// Of several cameras, the first is shown.
+  void image(const CameraImage& image);
+  /// @throw std::runtime_error the film cannot be written.
+  void virtual_scan(const VirtualScan& scan);
+  /// @return false, and there is no film, if there was nothing to show.
+  [[nodiscard]] bool finish();
+
+ private:
+  struct Frame {
+    Stamp stamp;
+    cv::Mat picture;
+  };
+  void add(Stamp stamp, const BirdScene& scene, const cv::Mat& camera);
+  void write(const Frame& frame);
+  [[nodiscard]] const CameraImage* image_at(Stamp stamp) const;
+
+  std::string path_, unfinished_;
+  cv::VideoWriter writer_;
+  std::optional<Frame> waiting_;  ///< the first, until the second tells the rate
+  std::deque<CameraImage> images_;
+  std::optional<LidarScan> real_;
+  Stamp last_key_;
+  Trails trails_;
+  BirdView view_;  ///< by the first scan
+};
+
+}  // namespace lidar_upsampling
