@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 
 #include "lidar_upsampling/io/carriers.h"
 #include "velodyne_packets.h"
@@ -70,6 +71,31 @@ TEST(VelodyneScan, an_embedded_point_cloud_is_preferred) {
   EXPECT_EQ(embedded.points, packets.points);
   EXPECT_EQ(embedded.ring, packets.ring);
   EXPECT_EQ(embedded.time_s, packets.time_s);
+}
+
+TEST(VelodyneScan, whose_points_lack_a_coordinate_is_none) {
+  CObservationVelodyneScan whole = sphere();
+  whole.generatePointCloud();
+  for (auto* const coordinate : {&whole.point_cloud.y, &whole.point_cloud.z}) {
+    const auto before = *coordinate;
+    coordinate->resize(before.size() / 2);
+    EXPECT_THROW((void)scan_from_observation(whole), std::runtime_error);
+    *coordinate = before;
+  }
+}
+
+TEST(RotatingScan, points_that_are_not_finite_are_left_out) {
+  CObservationVelodyneScan packets = sphere();
+  CObservationRotatingScan whole;
+  whole.fromVelodyne(packets);
+  ASSERT_GT(scan_from_observation(whole)->size(), 1000U);
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  CObservationRotatingScan resolution = whole, span = whole, start = whole;
+  resolution.rangeResolution = kNone;
+  span.azimuthSpan = kNone;
+  start.startAzimuth = kNone;
+  for (const auto& observation : {resolution, span, start})
+    EXPECT_TRUE(scan_from_observation(observation)->points.empty());
 }
 
 TEST(RotatingScan, made_by_mrpt_shows_what_the_packets_show) {

@@ -65,6 +65,26 @@ TEST(Resample, lasers_apart_from_each_other_see_what_each_of_them_sees) {
   EXPECT_LT(wrong, 0.03 * right);  // along the wall's foot
 }
 
+TEST(Patches, of_points_without_neighbours_face_the_sensor_even_where_rows_do_not_rise) {
+  BeamPattern pattern;
+  pattern.azimuth_pitch = 0.01F;
+  std::vector<Eigen::Vector3f> points;
+  for (const float tan_elevation : {0.2F, 0.F, -0.2F}) {
+    const int at = static_cast<int>(points.size());
+    const float azimuth = 1 + 2 * static_cast<float>(at);
+    pattern.rows.push_back({tan_elevation, 0, at, at + 1});
+    pattern.order.push_back(at);
+    pattern.azimuth.push_back(azimuth);
+    points.emplace_back(10 * std::cos(azimuth), 10 * std::sin(azimuth), 10 * tan_elevation);
+  }
+  const PatchMaker maker(points, pattern, {});
+  for (int i = 0; i < 3; ++i) {
+    const Patch patch = maker.make(i, i);
+    const Eigen::Vector3f normal = patch.frame.row(0), ahead = patch.frame.row(1);
+    EXPECT_LT((normal * points[i].norm() - ahead).norm(), 1e-5) << i;
+  }
+}
+
 TEST(Resample, noise_does_not_grow) {
   Spinner spinner;
   spinner.noise_m = 0.02;

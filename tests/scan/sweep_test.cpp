@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <stdexcept>
 
 namespace lidar_upsampling {
@@ -106,6 +107,29 @@ TEST(Sweep, all_points_at_one_instant_move_alike) {
   for (std::size_t i = 0; i < 2; ++i)
     EXPECT_LT((scan.points[i].cast<double>() - on_the_way(0.03) * before[i].cast<double>()).norm(),
               1e-5);
+}
+
+TEST(Sweep, points_without_a_time_near_the_stamp_are_left_out_with_all_their_fields) {
+  SweepOptions options;
+  options.scan_time = ScanTime::points;
+  LidarScan scan = scan_of({0, 10, 20, 30, 40});
+  scan.time_s = {0.01F, -4e8F, std::numeric_limits<float>::quiet_NaN(), 1.5F, -0.05F};
+  scan.ring = {0, 1, 2, 3, 4};
+  EXPECT_THROW((void)point_times(scan, options, kPeriod_s), std::runtime_error);
+  const auto points = scan.points;
+  EXPECT_EQ(drop_points_without_time(scan, options), 3U);
+  EXPECT_EQ(scan.label, "LIDAR");
+  EXPECT_EQ(scan.points, (std::vector<Eigen::Vector3f>{points[0], points[4]}));
+  EXPECT_EQ(scan.ring, (std::vector<std::uint16_t>{0, 4}));
+  EXPECT_EQ(point_times(scan, options, kPeriod_s), (std::vector<float>{0.01F, -0.05F}));
+}
+
+TEST(Sweep, times_that_are_not_used_cost_no_points) {
+  LidarScan scan = scan_of({0, 10});
+  scan.time_s = {0.01F, -4e8F};
+  EXPECT_EQ(drop_points_without_time(scan, {}), 0U);
+  EXPECT_EQ(drop_points_without_time(scan, by_azimuth()), 0U);
+  EXPECT_EQ(scan.size(), 2U);
 }
 
 TEST(Sweep, the_mean_time_is_that_of_the_chosen_points) {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <opencv2/core/mat.hpp>
 #include <opencv2/imgproc.hpp>
+#include <stdexcept>
 #include <string>
 
 namespace lidar_upsampling {
@@ -142,7 +143,11 @@ void append_point(const Eigen::Vector3f& point, const Cells& cells, const cv::Ma
 void read_points(const CObservation3DRangeScan& observation, LidarScan& scan) {
   const Cells cells = stored_cells(observation);
   const cv::Mat gray = gray_of_cells(observation, cells);
-  for (std::size_t i = 0; i < observation.points3D_x.size(); ++i) {
+  const std::size_t n = observation.points3D_x.size();
+  if (observation.points3D_y.size() != n || observation.points3D_z.size() != n)
+    throw std::runtime_error("its points have " + std::to_string(n) +
+                             " x, but not as many y and z");
+  for (std::size_t i = 0; i < n; ++i) {
     const Eigen::Vector3f point(observation.points3D_x[i], observation.points3D_y[i],
                                 observation.points3D_z[i]);
     append_point(point, cells, gray, i, scan);

@@ -48,6 +48,10 @@ CObservationVelodyneScan unpacked(CObservationVelodyneScan observation) {
 void read_points(const CObservationVelodyneScan& observation, LidarScan& scan) {
   const auto& cloud = observation.point_cloud;
   const std::size_t n = cloud.x.size();
+  if (cloud.y.size() != n || cloud.z.size() != n)
+    throw std::runtime_error("it has " + std::to_string(n) + " x, " +
+                             std::to_string(cloud.y.size()) + " y and " +
+                             std::to_string(cloud.z.size()) + " z");
   const std::vector<std::uint16_t> ring = ring_of_laser(observation.calibration);
   for (std::size_t i = 0; i < n; ++i) {
     const Eigen::Vector3f point(cloud.x[i], cloud.y[i], cloud.z[i]);
@@ -139,9 +143,12 @@ void read_rotating_scan(const CObservationRotatingScan& observation, LidarScan& 
       if (range <= 0 || range < observation.minRange || range > observation.maxRange) continue;
       const double azimuth = geometry.azimuth_start + column * geometry.azimuth_step;
       const double level = range * beam.cosVertCorrection;
-      scan.points.emplace_back(static_cast<float>(level * std::cos(azimuth)),
-                               static_cast<float>(level * std::sin(azimuth)),
-                               static_cast<float>(range * beam.sinVertCorrection));
+      const Eigen::Vector3f point =
+          Eigen::Vector3d(level * std::cos(azimuth), level * std::sin(azimuth),
+                          range * beam.sinVertCorrection)
+              .cast<float>();
+      if (!point.allFinite()) continue;
+      scan.points.push_back(point);
       scan.ring.push_back(ring[static_cast<std::size_t>(laser)]);
       scan.column.push_back(static_cast<std::uint16_t>(column));
       if (with_intensity) {

@@ -203,6 +203,9 @@ Patch PatchMaker::make(int row, int point, const int* owner) const {
   const float tiny = 0.05F * cell.x();
   around.has_near = {around.near[kRight].left<-tiny, around.near[kLeft].left> tiny,
                      around.near[kDown].up<-0.2F * cell.y(), around.near[kUp].up> 0.2F * cell.z()};
+  // Cells of rows that do not rise have negative heights, which a missing one would pass.
+  for (const Side side : {kRight, kLeft, kDown, kUp})
+    if (neighbours_[point][side] < 0) around.has_near[side] = false;
   return patch_of(around, cell, options_);
 }
 

@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
+#include "lidar_upsampling/scan/compose.h"
 #include "lidar_upsampling/units.h"
 
 namespace lidar_upsampling {
@@ -25,7 +27,29 @@ std::vector<float> times_by_azimuth(const LidarScan& scan, const SweepOptions& o
   return times;
 }
 
+bool is_near(float time_s) {
+  constexpr float kFarthest_s = 1;
+  return std::abs(time_s) <= kFarthest_s;  // not if it is not finite
+}
+
 }  // namespace
+
+std::size_t drop_points_without_time(LidarScan& scan, const SweepOptions& options) {
+  if (options.scan_time != ScanTime::points || scan.time_s.size() != scan.size()) return 0;
+  std::vector<int> timed;
+  for (std::size_t i = 0; i < scan.size(); ++i)
+    if (is_near(scan.time_s[i])) timed.push_back(static_cast<int>(i));
+  const std::size_t num_dropped = scan.size() - timed.size();
+  if (num_dropped == 0) return 0;
+  const LidarScan all = std::move(scan);
+  scan = {};
+  scan.stamp = all.stamp;
+  scan.label = all.label;
+  scan.T_vehicle_lidar = all.T_vehicle_lidar;
+  scan.points = taken(all.points, timed);
+  take_fields(all, timed, scan);
+  return num_dropped;
+}
 
 std::vector<float> point_times(const LidarScan& scan, const SweepOptions& options,
                                double period_s) {
@@ -36,6 +60,9 @@ std::vector<float> point_times(const LidarScan& scan, const SweepOptions& option
     throw std::runtime_error("scan_time = points, but the scans of '" + scan.label +
                              "' have no times of their points: of a spinning scanner choose "
                              "scan_time = azimuth");
+  if (!std::all_of(scan.time_s.begin(), scan.time_s.end(), is_near))
+    throw std::runtime_error("scan_time = points, but a point of '" + scan.label +
+                             "' has no time within a second of its scan's");
   return scan.time_s;
 }
 

@@ -27,10 +27,15 @@ struct SweepOptions {
   double period_ms = 0;    ///< of one turn; 0: the shortest time between two scans
 };
 
+/// @brief With `points`, leaves out points whose own time is not finite, or further than a second
+/// from the stamp: what was not measured is often zero, or anything. @return how many.
+std::size_t drop_points_without_time(LidarScan& scan, const SweepOptions& options);
+
 /// @brief When each point was measured, in seconds from the scan's stamp.
 /// @param period_s of one turn, for `azimuth`; 0: not known yet, so nothing is.
 /// @return none for ScanTime::none, else one per point.
-/// @throw std::runtime_error `points`, but the scan has no times.
+/// @throw std::runtime_error `points`, but the scan has no times, or one further than a second from
+/// its stamp.
 [[nodiscard]] std::vector<float> point_times(const LidarScan& scan, const SweepOptions& options,
                                              double period_s);
 
