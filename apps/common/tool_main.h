@@ -39,6 +39,11 @@ inline int run_tool(CLI::App& app, int argc, char** argv, const std::function<vo
   }
 }
 
+/// @brief Says in one line on stderr what is worth knowing of work that is done nevertheless.
+inline void warn(const std::string& tool, const std::string& text) {
+  std::cerr << tool << ": warning: " << text << "\n";
+}
+
 /// Percents on a terminal, nothing in a pipe.
 class Progress {
  public:

@@ -11,8 +11,6 @@
 namespace lidar_upsampling {
 namespace {
 
-using mrpt::obs::CObservation;
-
 // Besides its bytes: what a picture unpacks to, and the like.
 std::size_t unpacked_size(const mrpt::serialization::CSerializable& object) {
   constexpr std::size_t kObject = 1000;
@@ -31,23 +29,9 @@ std::size_t weight_of(const RawlogEntry& entry) {
 
 }  // namespace
 
-std::optional<Stamp> stamp_of(const RawlogEntry& entry) {
-  const auto* observation = dynamic_cast<const CObservation*>(entry.object.get());
-  const auto* const frame = dynamic_cast<const mrpt::obs::CSensoryFrame*>(entry.object.get());
-  if (frame != nullptr && !frame->empty()) observation = frame->begin()->get();
-  if (observation == nullptr || observation->timestamp == INVALID_TIMESTAMP) return {};
-  return observation->timestamp;
-}
-
 const RawlogEntry* LogAhead::read_on() {
   if (is_at_end_) return nullptr;
-  std::optional<RawlogEntry> entry;
-  try {
-    entry = reader_.next();
-  } catch (const CorruptRawlog& error) {
-    if (indexer_.so_far().num_objects == 0) throw;
-    corruption_ = error.what();
-  }
+  std::optional<RawlogEntry> entry = reader_.next();
   if (!entry) {
     is_at_end_ = true;
     return nullptr;

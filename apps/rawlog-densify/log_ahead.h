@@ -17,11 +17,10 @@ class LogAhead {
  public:
   /// @param span_s how far to look ahead, by stamps, as long as that takes no more memory than
   /// some 150 MB. @throw std::runtime_error the file cannot be opened.
-  LogAhead(const std::string& path, double span_s)
-      : reader_(path), indexer_(path), span_s_(span_s) {}
+  LogAhead(const LogFile& log, double span_s) : reader_(log), indexer_(log.path), span_s_(span_s) {}
 
   /// @brief Reads one entry more. @return it, until next() gives it away; null at the log's end.
-  /// @throw CorruptRawlog not even the first object can be read.
+  /// @throw CorruptRawlog as RawlogReader::next().
   const RawlogEntry* read_on();
 
   /// Whether the span is read; without one, whether there is an entry.
@@ -31,7 +30,7 @@ class LogAhead {
   /// Whether all entries have been read, if they have not been given away.
   [[nodiscard]] bool is_at_end() const { return is_at_end_; }
   /// Why the log ends there, where that is not its clean end.
-  [[nodiscard]] const std::optional<std::string>& corruption() const { return corruption_; }
+  [[nodiscard]] const std::optional<std::string>& corruption() const { return reader_.damage(); }
 
   /// For a log of which all is known otherwise. What has been read stays.
   void look_no_further() { span_s_ = 0; }
@@ -53,10 +52,6 @@ class LogAhead {
   std::size_t weight_ = 0;  ///< of them, bytes in memory
   std::optional<Stamp> newest_;
   bool is_at_end_ = false;
-  std::optional<std::string> corruption_;
 };
-
-/// An observation's own stamp, or that of a frame's first one; none of what has no valid one.
-[[nodiscard]] std::optional<Stamp> stamp_of(const RawlogEntry& entry);
 
 }  // namespace lidar_upsampling

@@ -47,11 +47,6 @@ bool has_ego(EgoSource source, const LogIndex& index) {
   return true;
 }
 
-void refuse_damage(const DensifyJob& job, const std::optional<std::string>& corruption) {
-  if (corruption && !job.accept_truncated)
-    throw std::runtime_error(*corruption + "; --accept-truncated densifies what comes before");
-}
-
 bool is_from(const RawlogEntry& entry, Stamp stamp) {
   const auto own = stamp_of(entry);
   return own && *own >= stamp;
@@ -60,7 +55,9 @@ bool is_from(const RawlogEntry& entry, Stamp stamp) {
 }  // namespace
 
 LogInput::LogInput(const DensifyJob& job, DensifyReport& report)
-    : job_(job), report_(report), log_(job.input, span_ahead_s(job.config)) {
+    : job_(job),
+      report_(report),
+      log_({job.input, job.accept_truncated}, span_ahead_s(job.config)) {
   while (!log_.is_full())
     if (read_on() == nullptr) break;
 }
@@ -70,8 +67,7 @@ LogIndex LogInput::index(bool whole, const std::function<void(double)>& progress
   knows_all_ = !beginning || log_.is_at_end();
   if (beginning) return std::move(*beginning);
   log_.look_no_further();
-  LogIndex index = index_log(job_.input, progress);
-  refuse_damage(job_, index.corruption);
+  LogIndex index = index_log({job_.input, job_.accept_truncated}, progress);
   take_poses_from_file(job_.config, job_.rig, index);
   return index;
 }
@@ -126,7 +122,6 @@ const RawlogEntry* LogInput::read_on() {
   if (log_.is_at_end()) return nullptr;
   const Timed reading(report_, "reading");
   const RawlogEntry* const entry = log_.read_on();
-  refuse_damage(job_, log_.corruption());
   if (log_.corruption()) report_.warn(*log_.corruption());
   return entry;
 }

@@ -20,7 +20,7 @@ using namespace lidar_upsampling;  // NOLINT(google-build-using-namespace)
 
 void write_report(const DensifyReport& report, const std::string& path) {
   std::ofstream file(path);
-  file << to_json(report).dump(1) << '\n';
+  file << to_json(report).dump(1, ' ', false, nlohmann::json::error_handler_t::replace) << '\n';
   file.flush();
   if (!file) throw std::runtime_error(path + ": the report cannot be written");
 }
@@ -80,7 +80,7 @@ void add_ways_to_work(CLI::App& app, Request& request) {
       ->check(CLI::Range(0., 60.));
   app.add_flag("--overwrite", request.job.overwrite, "replace an existing output");
   app.add_flag("--accept-truncated", request.job.accept_truncated,
-               "densify what is readable of a log that is cut off");
+               "of a damaged log, take what comes before the damage");
   app.add_flag("--check", request.check,
                "only look at --input: its streams, and how camera and LiDAR fit in space and time; "
                "with --pictures, a scan on a picture of each camera");

@@ -123,10 +123,7 @@ DensifyReport densify_in_parts(const DensifyJob& job, const PartOptions& options
   // Whether it can be written is told before the work.
   static_cast<void>(RawlogWriter(job.output, job.overwrite));
   mrpt::img::CImage::DISABLE_JPEG_COMPRESSION(true);  // of the process: not once per writer
-  LogIndex index = index_log(job.input);
-  if (index.corruption && !job.accept_truncated)
-    throw std::runtime_error(*index.corruption +
-                             "; --accept-truncated densifies what comes before");
+  LogIndex index = index_log({job.input, job.accept_truncated});
   take_poses_from_file(job.config, job.rig, index);
   const auto streams = select_streams(index, job.config, labels_of_calibrated(job.rig));
   const std::vector<LogPart> parts = parts_of(index, streams.lidar->stamps, options);

@@ -70,6 +70,8 @@ void add_options(CLI::App& app, Request& request) {
   app.add_option("--seeds", job.options.num_seeds, "samples drawn for a protocol")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
+  app.add_flag("--accept-truncated", job.accept_truncated,
+               "of a damaged log, take what comes before the damage");
   app.add_flag("--exact-emd", job.options.exact_emd,
                "the exact assignment of 2048 points beside the published EMD (slow)");
   app.add_option("--config", request.config,
@@ -153,13 +155,16 @@ void evaluate(Request& request) {
   }
   if (content.run) std::cout << to_text(running_time_of(*content.run));
   if (!request.json.empty())
-    write_file(to_json(content.comparison->result, content.comparison->figures).dump(1) + '\n',
+    write_file(to_json(content.comparison->result, content.comparison->figures)
+                       .dump(1, ' ', false, nlohmann::json::error_handler_t::replace) +
+                   '\n',
                request.json);
   if (!request.csv.empty())
     write_file(to_csv(content.comparison->result, content.comparison->figures), request.csv);
   if (!wants_page) return;
-  content.coverage = measure_coverage(index_log(request.inputs.front()), request.job.label,
-                                      1e-3 * request.tolerance_ms);
+  content.coverage =
+      measure_coverage(index_log({request.inputs.front(), request.job.accept_truncated}),
+                       request.job.label, 1e-3 * request.tolerance_ms);
   write_file(to_page(content), request.html);
 }
 

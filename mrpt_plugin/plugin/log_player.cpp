@@ -17,7 +17,7 @@ using mrpt::obs::CObservation;
 using mrpt::obs::CSensoryFrame;
 
 LogPlayer::LogPlayer(const std::string& path, double speed, Pipeline& pipeline)
-    : path_(path), speed_(speed), pipeline_(pipeline), reader_(path) {
+    : path_(path), speed_(speed), pipeline_(pipeline), reader_(LogFile(path, true)) {
   // What is recorded anew shall be what was played; a switch for the whole process.
   mrpt::img::CImage::DISABLE_JPEG_COMPRESSION(true);
   thread_ = std::thread([this] { play(); });
@@ -40,7 +40,7 @@ void LogPlayer::play() {
         return;
       }
     }
-    pipeline_.finish(path_ + ": played to its end");
+    pipeline_.finish(reader_.damage().value_or(path_ + ": played to its end"));
   } catch (const std::exception& error) {
     pipeline_.finish(one_line(error));
   }

@@ -3,22 +3,27 @@
 #pragma once
 
 #include <cstddef>
+#include <map>
 #include <mutex>
 #include <string>
 #include <vector>
 
 namespace lidar_upsampling {
 
-/// @brief What the threads have to tell, until the sensor's own thread logs it. A flood is cut off.
+/// @brief What the threads have to tell, until the sensor's own thread logs it: each text once, and
+/// how often it was told at the end. A flood is cut off.
 class Messages {
  public:
   void add(const std::string& text);
   [[nodiscard]] std::vector<std::string> take();
+  /// What was told more than once, as "text (12x)".
+  [[nodiscard]] std::vector<std::string> repeated() const;
 
  private:
-  std::mutex mutex_;
+  mutable std::mutex mutex_;
   std::vector<std::string> texts_;
-  std::size_t num_added_ = 0;
+  std::map<std::string, std::size_t> counts_;
+  bool is_cut_off_ = false;
 };
 
 }  // namespace lidar_upsampling

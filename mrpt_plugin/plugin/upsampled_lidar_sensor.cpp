@@ -72,7 +72,7 @@ void UpsampledLidarSensor::initialize() {
 // Only a log has stamps that a file can have poses of.
 std::vector<PoseSample> UpsampledLidarSensor::given_poses() const {
   if (settings_.config.pose_file.path.empty()) return {};
-  LogIndex index = index_log(settings_.rawlog);
+  LogIndex index = index_log({settings_.rawlog, true});
   take_poses_from_file(settings_.config, settings_.rig, index);
   return std::move(index.poses);
 }
@@ -147,6 +147,7 @@ SensorStatistics UpsampledLidarSensor::statistics() const {
 void UpsampledLidarSensor::report() const {
   const SensorStatistics figures = statistics();
   MRPT_LOG_INFO_STREAM(summary(figures));
+  for (const std::string& text : messages_.repeated()) MRPT_LOG_WARN(text);
   if (figures.num_virtual_scans == 0)
     MRPT_LOG_WARN_STREAM("no virtual scan was made; there came " << streams_->seen());
 }

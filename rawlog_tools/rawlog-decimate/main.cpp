@@ -22,7 +22,7 @@ struct Options {
   std::string label;
   std::size_t keep_every = 1;
   std::size_t offset = 0;
-  bool overwrite = false;
+  bool overwrite = false, accept_truncated = false;
 };
 
 class Decimator {
@@ -86,7 +86,7 @@ std::string joined(const std::set<std::string>& labels) {
 }
 
 void decimate(const Options& options) {
-  RawlogReader reader(options.input);
+  RawlogReader reader({options.input, options.accept_truncated});
   RawlogWriter writer(options.output, options.overwrite);
   Decimator decimator(options);
   {
@@ -101,10 +101,10 @@ void decimate(const Options& options) {
                              options.label + "'; there are: " + joined(decimator.labels()));
   }
   writer.commit();
-  if (!share_external_storage(options.input, options.output)) {
-    std::cerr << "rawlog-decimate: warning: the external files are not linked: "
-              << external_storage_of(options.output) << " is something else\n";
-  }
+  if (reader.damage()) warn("rawlog-decimate", *reader.damage());
+  if (!share_external_storage(options.input, options.output))
+    warn("rawlog-decimate", "the external files are not linked: " +
+                                external_storage_of(options.output) + " is something else");
   std::cout << "kept " << decimator.num_kept() << " of " << decimator.num_seen() << " of '"
             << options.label << "', " << writer.num_written() << " objects in " << options.output
             << "\n";
@@ -126,5 +126,7 @@ int main(int argc, char** argv) {
   app.add_option("--offset", options.offset, "Number of the first one that is kept, from 0")
       ->check(CLI::Range(0, 1000000000));
   app.add_flag("--overwrite", options.overwrite, "Replace an existing output");
+  app.add_flag("--accept-truncated", options.accept_truncated,
+               "Of a damaged log, take what comes before the damage");
   return lidar_upsampling::run_tool(app, argc, argv, [&] { lidar_upsampling::decimate(options); });
 }

@@ -22,6 +22,7 @@ struct HandMadeLog {
   double image_delay_s = 0;  ///< added to the images' stamps
   int external_image = -1;   ///< the one that lies in a file
   std::string external_file = "no.png";
+  std::string lidar_label = "LIDAR";
 };
 
 inline Stamp hand_made_stamp(int image) {
@@ -73,7 +74,11 @@ inline void write_hand_made(const std::string& path, const HandMadeLog& log = {}
     pose.sensorLabel = "POSE";
     pose.timestamp = hand_made_stamp(i);
     writer.write(pose);
-    if (i % 3 == 0) writer.write(*observation_from_scan(wall_scan(i), Carrier::automatic));
+    if (i % 3 == 0) {
+      LidarScan scan = wall_scan(i);
+      scan.label = log.lidar_label;
+      writer.write(*observation_from_scan(scan, Carrier::automatic));
+    }
     if (i >= log.num_images) continue;
     const auto picture = observation_from_image(still_picture(log, i));
     if (i == log.external_image) picture->image.setExternalStorage(log.external_file);

@@ -193,18 +193,19 @@ TEST(LogIndex, gnss_is_put_on_the_computers_clock_where_the_two_disagree) {
   EXPECT_EQ(index.gnss[0].stamp, at(1.05));
 }
 
-TEST(LogIndex, a_cut_log_is_indexed_as_far_as_it_is_good) {
+TEST(LogIndex, a_cut_log_is_indexed_as_far_as_it_is_good_if_that_is_accepted) {
   const TestFolder folder;
   Objects objects;
   for (int i = 0; i < 50; ++i) objects.push_back(scan(0.1 * i));
   static_cast<void>(index_of(objects, folder));
   fs::resize_file(folder / "log.rawlog", fs::file_size(folder / "log.rawlog") - 12);
-  const LogIndex index = index_log(folder / "log.rawlog");
+  EXPECT_THROW(static_cast<void>(index_log(folder / "log.rawlog")), CorruptRawlog);
+  const LogIndex index = index_log({folder / "log.rawlog", true});
   ASSERT_TRUE(index.corruption);
   EXPECT_NE(index.corruption->find("cut off"), std::string::npos) << *index.corruption;
   EXPECT_GT(index.num_objects, 20U);
   fs::resize_file(folder / "log.rawlog", 5);
-  EXPECT_THROW(static_cast<void>(index_log(folder / "log.rawlog")), CorruptRawlog);
+  EXPECT_THROW(static_cast<void>(index_log({folder / "log.rawlog", true})), CorruptRawlog);
 }
 
 TEST(LogIndex, progress_reaches_the_end) {

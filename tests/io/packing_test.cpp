@@ -30,12 +30,6 @@ void write_file(const std::string& path, Compression compression, const std::vec
   writer.close();
 }
 
-Bytes joined(const std::vector<Bytes>& parts) {
-  Bytes all;
-  for (const Bytes& part : parts) all.insert(all.end(), part.begin(), part.end());
-  return all;
-}
-
 Bytes read_as_mrpt_does(const std::string& path, std::size_t size) {
   mrpt::io::CFileGZInputStream stream(path);
   Bytes bytes(size + 1);
@@ -113,15 +107,54 @@ TEST(Unpacking, a_cut_within_a_member_is_told_and_costs_only_what_is_behind_it) 
   EXPECT_NE(reader.defect()->find("cut off"), std::string::npos) << *reader.defect();
 }
 
-TEST(Unpacking, what_follows_the_last_member_is_left_out) {
+TEST(Unpacking, what_follows_a_member_and_is_none_is_a_defect) {
   const TestFolder folder;
   const TwoMembers file;
   for (const Bytes& more : {Bytes(1, 0), Bytes(4096, 0), Bytes{0x1f}, Bytes{'e', 'n', 'd'}}) {
     write_bytes(folder / "a", joined({file.packed, more}));
     RecordingGzipReader reader(folder / "a");
     EXPECT_EQ(read_to_the_end(reader), joined({file.first, file.second})) << more.size();
-    EXPECT_FALSE(reader.defect());
+    ASSERT_TRUE(reader.defect());
+    EXPECT_NE(reader.defect()->find("damaged"), std::string::npos) << *reader.defect();
   }
+}
+
+TEST(Unpacking, a_member_whose_header_is_damaged_is_a_defect) {
+  const TestFolder folder;
+  for (const std::size_t at : {0U, 1U, 2U}) {
+    TwoMembers file;
+    file.packed[file.size_of_first + at] ^= 0x40U;
+    write_bytes(folder / "a", file.packed);
+    RecordingGzipReader reader(folder / "a");
+    EXPECT_EQ(read_to_the_end(reader), file.first) << at;
+    EXPECT_TRUE(reader.defect()) << at;
+  }
+}
+
+TEST(Unpacking, of_a_small_file_all_but_what_the_defect_makes_unknown_is_given) {
+  const TestFolder folder;
+  const Bytes bytes = some_bytes(300000, 4);
+  write_file(folder / "a", Compression::fast, {bytes});
+  Bytes packed = file_bytes(folder / "a");
+  packed[packed.size() - 6] ^= 0x01U;  // of the checksum
+  write_bytes(folder / "a", packed);
+  RecordingGzipReader reader(folder / "a");
+  EXPECT_EQ(read_to_the_end(reader), bytes);
+  EXPECT_TRUE(reader.defect());
+}
+
+TEST(Unpacking, tells_how_much_there_is_from_the_record_on) {
+  const TestFolder folder;
+  const TwoMembers file;
+  write_bytes(folder / "a", file.packed);
+  RecordingGzipReader reader(folder / "a");
+  Bytes block(1000);
+  const std::size_t all = file.first.size() + file.second.size();
+  EXPECT_EQ(reader.bytes_from_record_on(), all);
+  reader.Read(block.data(), block.size());
+  EXPECT_EQ(reader.bytes_from_record_on(), all);
+  static_cast<void>(reader.take_record());
+  EXPECT_EQ(reader.bytes_from_record_on(), all - block.size());
 }
 
 TEST(Unpacking, a_reader_that_is_left_early_does_not_wait) {

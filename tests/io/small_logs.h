@@ -56,6 +56,12 @@ inline void write_bytes(const std::string& path, const Bytes& bytes) {
              static_cast<std::streamsize>(bytes.size()));
 }
 
+[[nodiscard]] inline Bytes joined(const std::vector<Bytes>& parts) {
+  Bytes all;
+  for (const Bytes& part : parts) all.insert(all.end(), part.begin(), part.end());
+  return all;
+}
+
 inline Bytes uncompressed(const std::string& path) {
   RecordingGzipReader reader(path);
   Bytes all(1U << 24U);

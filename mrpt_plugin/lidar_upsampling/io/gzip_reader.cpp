@@ -5,10 +5,12 @@
 #include <algorithm>
 #include <condition_variable>
 #include <deque>
+#include <filesystem>
 #include <mutex>
 #include <thread>
 #include <utility>
 
+#include "lidar_upsampling/io/reading_guard.h"
 #include "lidar_upsampling/io/unpacker.h"
 
 namespace lidar_upsampling {
@@ -113,6 +115,7 @@ size_t RecordingGzipReader::Read(void* buffer, size_t count) {
     if (got == 0) break;
     done += got;
   }
+  const ReadingGuard::Pause pause;  // the record may grow ahead of what it holds
   record_.insert(record_.end(), out, out + done);
   position_ += done;
   return done;
@@ -121,6 +124,18 @@ size_t RecordingGzipReader::Read(void* buffer, size_t count) {
 bool RecordingGzipReader::at_end() { return ahead_->at_end(); }
 
 std::optional<std::string> RecordingGzipReader::defect() const { return ahead_->defect(); }
+
+std::optional<std::uint64_t> RecordingGzipReader::bytes_from_record_on() {
+  if (!std::filesystem::is_regular_file(path_)) return {};
+  if (!unpacked_size_) {
+    Unpacker unpacker(path_);
+    std::vector<std::uint8_t> block(1U << 20U);
+    std::uint64_t size = 0;
+    while (const std::size_t step = unpacker.unpack(block)) size += step;
+    unpacked_size_ = size;
+  }
+  return *unpacked_size_ - (position_ - record_.size());
+}
 
 std::vector<std::uint8_t> RecordingGzipReader::take_record() {
   // Not moved out: the next object is likely as large, and so is read without growing step by step.

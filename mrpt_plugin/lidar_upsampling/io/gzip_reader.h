@@ -38,6 +38,9 @@ class RecordingGzipReader : public mrpt::io::CStream {
   [[nodiscard]] bool at_end();
   /// Why no more can be read, where that is not the clean end; none as long as more can be.
   [[nodiscard]] std::optional<std::string> defect() const;
+  /// How much unpacked data there is from the record's begin on, up to the end or a defect; unpacks
+  /// all of the file when first asked. None: it is no regular file.
+  [[nodiscard]] std::optional<std::uint64_t> bytes_from_record_on();
   /// All that was read since the last call.
   [[nodiscard]] std::vector<std::uint8_t> take_record();
   /// Share of the file on the disk that is read, 0 to 1.
@@ -49,6 +52,7 @@ class RecordingGzipReader : public mrpt::io::CStream {
   std::string path_;
   std::uint64_t file_size_ = 0;
   std::uint64_t position_ = 0;  // in the uncompressed data
+  std::optional<std::uint64_t> unpacked_size_;
   std::vector<std::uint8_t> record_;
   std::unique_ptr<Ahead> ahead_;
 };

@@ -15,7 +15,6 @@
 
 #include "lidar_upsampling/io/carriers.h"
 #include "lidar_upsampling/io/images.h"
-#include "lidar_upsampling/io/rawlog_stream.h"
 
 namespace lidar_upsampling {
 namespace {
@@ -46,9 +45,6 @@ StreamInfo& stream_of(const CObservation& observation, std::vector<StreamInfo>& 
   stream.label = observation.sensorLabel;
   stream.class_name = class_name;
   stream.kind = kind_of(observation);
-  if (const auto* const image = dynamic_cast<const mrpt::obs::CObservationImage*>(&observation)) {
-    stream.camera = camera_of(*image);
-  }
   return streams.emplace_back(std::move(stream));
 }
 
@@ -89,6 +85,8 @@ std::vector<const StreamInfo*> LogIndex::of_kind(StreamKind kind) const {
 void LogIndexer::add_observation(const CObservation& observation) {
   StreamInfo& stream = stream_of(observation, index_.streams);
   ++stream.count;
+  const auto* const image = dynamic_cast<const mrpt::obs::CObservationImage*>(&observation);
+  if (image != nullptr && !stream.calibrated()) stream.camera = camera_of(*image);
   if (observation.timestamp == INVALID_TIMESTAMP) return;
   stream.stamps.push_back(observation.timestamp);
   ego_.add_observation(observation);
@@ -118,21 +116,15 @@ LogIndex LogIndexer::index() const {
   return index;
 }
 
-LogIndex index_log(const std::string& path, const std::function<void(double)>& progress) {
-  RawlogReader reader(path);
-  LogIndexer indexer(path);
-  std::optional<std::string> corruption;
-  try {
-    while (const auto entry = reader.next()) {
-      indexer.add(*entry->object);
-      if (progress) progress(reader.progress());
-    }
-  } catch (const CorruptRawlog& error) {
-    if (indexer.so_far().num_objects == 0) throw;
-    corruption = error.what();
+LogIndex index_log(const LogFile& log, const std::function<void(double)>& progress) {
+  RawlogReader reader(log);
+  LogIndexer indexer(log.path);
+  while (const auto entry = reader.next()) {
+    indexer.add(*entry->object);
+    if (progress) progress(reader.progress());
   }
   LogIndex index = indexer.index();
-  index.corruption = corruption;
+  index.corruption = reader.damage();
   return index;
 }
 

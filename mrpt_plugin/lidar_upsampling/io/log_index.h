@@ -10,6 +10,7 @@
 
 #include "lidar_upsampling/ego/ego_motion.h"
 #include "lidar_upsampling/io/ego_samples.h"
+#include "lidar_upsampling/io/rawlog_stream.h"
 #include "lidar_upsampling/types.h"
 
 namespace lidar_upsampling {
@@ -25,7 +26,7 @@ struct StreamInfo {
   StreamKind kind = StreamKind::other;
   std::size_t count = 0;
   std::vector<Stamp> stamps;     ///< in the log's order; those without a valid one left out
-  std::optional<Camera> camera;  ///< of a camera: that of its first picture
+  std::optional<Camera> camera;  ///< of a camera: that of its first picture that has one
   double median_period_s = 0;    ///< 0 with less than two stamps
 
   [[nodiscard]] bool calibrated() const;
@@ -41,7 +42,7 @@ struct LogIndex {
   std::vector<PoseSample> poses;     ///< CObservationRobotPose
   std::vector<PoseSample> odometry;  ///< CObservationOdometry, or the actions' increments summed up
   std::vector<GnssSample> gnss;      ///< CObservationGPS with a fix
-  std::optional<std::string> corruption;  ///< why the log was not read to its end
+  std::optional<std::string> corruption;  ///< why the log was not read to its end, if accepted
 
   /// The stream of this label that holds scans, or images; null if there is none.
   [[nodiscard]] const StreamInfo* find(const std::string& label, StreamKind kind) const;
@@ -70,9 +71,9 @@ class LogIndexer {
 
 /// @brief Reads a whole log once, loading nothing that is stored externally.
 /// @param progress called now and then with the share read, 0 to 1; may be null.
-/// @throw CorruptRawlog not even the first object can be read. A log broken later on is indexed so
-/// far, see LogIndex::corruption.
-[[nodiscard]] LogIndex index_log(const std::string& path,
+/// @throw CorruptRawlog as RawlogReader::next(). @return where damage is accepted, the index of
+/// what comes before, and LogIndex::corruption.
+[[nodiscard]] LogIndex index_log(const LogFile& log,
                                  const std::function<void(double)>& progress = nullptr);
 
 /// "LIDAR (lidar), CAM2 (camera), ...": one line, for messages on a label that is not there.

@@ -5,7 +5,10 @@
 #include <mrpt/img/CImage.h>
 #include <mrpt/io/lazy_load_path.h>
 #include <mrpt/maps/registerAllClasses.h>
+#include <mrpt/obs/CObservation.h>
+#include <mrpt/obs/CSensoryFrame.h>
 #include <mrpt/obs/registerAllClasses.h>
+#include <mrpt/system/datetime.h>
 #include <unistd.h>
 
 #include <cstdio>
@@ -14,6 +17,7 @@
 
 #include "lidar_upsampling/io/gzip_reader.h"
 #include "lidar_upsampling/io/gzip_writer.h"
+#include "lidar_upsampling/io/reading_guard.h"
 #include "lidar_upsampling/text.h"
 
 namespace fs = std::filesystem;
@@ -32,6 +36,10 @@ void register_stock_classes() {
 }
 
 std::string explain(const std::exception& error) {
+  // MRPT puts a line of its own before.
+  const std::string all = error.what();
+  const auto picture = all.find(kBrokenJpeg);
+  if (picture != std::string::npos) return all.substr(picture, all.find('\n', picture) - picture);
   std::string text = one_line(error);
   const auto from = text.find('\'');
   const auto to = text.find('\'', from + 1);
@@ -61,6 +69,14 @@ std::vector<std::uint8_t> bytes_of(const mrpt::serialization::CSerializable& obj
 
 }  // namespace
 
+std::optional<Stamp> stamp_of(const RawlogEntry& entry) {
+  const auto* observation = dynamic_cast<const mrpt::obs::CObservation*>(entry.object.get());
+  const auto* const frame = dynamic_cast<const mrpt::obs::CSensoryFrame*>(entry.object.get());
+  if (frame != nullptr && !frame->empty()) observation = frame->begin()->get();
+  if (observation == nullptr || observation->timestamp == INVALID_TIMESTAMP) return {};
+  return observation->timestamp;
+}
+
 std::string external_storage_of(const std::string& rawlog_path) {
   // Not CRawlog::detectImagesDirectory(): MRPT before 2.8.0 drops the file's stem there.
   const fs::path absolute = fs::absolute(rawlog_path);
@@ -86,10 +102,10 @@ bool share_external_storage(const std::string& source_rawlog, const std::string&
   return !error;
 }
 
-RawlogReader::RawlogReader(const std::string& path)
-    : path_(path),
-      external_storage_(external_storage_of(path)),
-      stream_(std::make_unique<RecordingGzipReader>(path)),
+RawlogReader::RawlogReader(const LogFile& log)
+    : log_(log),
+      external_storage_(external_storage_of(log.path)),
+      stream_(std::make_unique<RecordingGzipReader>(log.path)),
       archive_(mrpt::serialization::archiveUniquePtrFrom<mrpt::io::CStream>(*stream_)) {
   register_stock_classes();
   announce_external_storage();
@@ -103,34 +119,53 @@ void RawlogReader::announce_external_storage() const {
   mrpt::io::setLazyLoadPathBase(external_storage_);  // of CImage too, since MRPT 2.3.3
 }
 
-void RawlogReader::fail(const std::string& reason) {
-  has_failed_ = true;
-  const std::string start =
-      num_good_ == 0 ? path_ + " is no rawlog that can be read"
-                     : path_ + ": broken after " + std::to_string(num_good_) + " good objects";
-  throw CorruptRawlog(start + ", at byte " + std::to_string(stream_->getPosition()) +
-                      " of the uncompressed data: " + reason);
+void RawlogReader::end(const std::string& reason) {
+  std::string text = log_.path;
+  if (num_good_ == 0)
+    text += " is no rawlog that can be read";
+  else
+    text += ": broken after " + std::to_string(num_good_) + " good objects";
+  if (last_stamp_) text += ", the last one of " + mrpt::system::dateTimeToString(*last_stamp_);
+  text += ", at byte " + std::to_string(stream_->getPosition()) +
+          " of the uncompressed data: " + reason;
+  damage_ = text;
+  if (num_good_ > 0 && log_.accepts_damage) return;
+  throw CorruptRawlog(num_good_ == 0 ? text
+                                     : text + "; --accept-truncated takes what comes before");
+}
+
+// @return why there is none.
+std::optional<std::string> RawlogReader::read_object(RawlogEntry& entry) {
+  try {
+    const ReadingGuard guard([this] { return stream_->bytes_from_record_on(); });
+    entry.object = archive_->ReadObject();
+    if (!entry.object) return "an empty object";
+    return {};
+  } catch (const std::exception& error) {
+    if (const auto defect = stream_->defect()) return defect;
+    if (stream_->at_end()) return "the file ends in the middle of an object";
+    return explain(error);
+  }
 }
 
 std::optional<RawlogEntry> RawlogReader::next() {
-  if (has_failed_) return std::nullopt;
+  if (damage_) return std::nullopt;
   announce_external_storage();
   if (stream_->at_end()) {
-    if (const auto defect = stream_->defect()) fail(*defect);
-    if (num_good_ == 0) fail("it is empty");
+    if (const auto defect = stream_->defect())
+      end(*defect);
+    else if (num_good_ == 0)
+      end("it is empty");
     return std::nullopt;
   }
   RawlogEntry entry;
-  try {
-    entry.object = archive_->ReadObject();
-  } catch (const std::exception& error) {
-    if (const auto defect = stream_->defect()) fail(*defect);
-    if (stream_->at_end()) fail("the file ends in the middle of an object");
-    fail(explain(error));
+  if (const auto reason = read_object(entry)) {
+    end(*reason);
+    return std::nullopt;
   }
-  if (!entry.object) fail("an empty object");
   entry.bytes = stream_->take_record();
   ++num_good_;
+  if (const auto stamp = stamp_of(entry)) last_stamp_ = stamp;
   return entry;
 }
 

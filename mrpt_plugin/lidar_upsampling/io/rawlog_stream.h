@@ -9,6 +9,7 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "lidar_upsampling/types.h"
@@ -26,6 +27,20 @@ struct RawlogEntry {
 
 /// An object with the bytes it is written as (pictures without loss).
 [[nodiscard]] RawlogEntry entry_of(const mrpt::serialization::CSerializable::Ptr& object);
+
+/// An observation's own stamp, or that of a frame's first one; none of what has no valid one.
+[[nodiscard]] std::optional<Stamp> stamp_of(const RawlogEntry& entry);
+
+/// @brief A log to be read, and what becomes of a damaged one: it is refused, or ends where the
+/// damage begins.
+struct LogFile {
+  // NOLINTNEXTLINE(google-explicit-constructor): a path is one
+  LogFile(std::string path_of_log, bool accepts = false)
+      : path(std::move(path_of_log)), accepts_damage(accepts) {}
+
+  std::string path;
+  bool accepts_damage;
+};
 
 /// The log ends in the middle of an object, or holds something that is no MRPT object.
 struct CorruptRawlog : std::runtime_error {
@@ -51,29 +66,35 @@ struct CorruptRawlog : std::runtime_error {
 class RawlogReader {
  public:
   /// @throw std::runtime_error the file cannot be opened.
-  explicit RawlogReader(const std::string& path);
+  explicit RawlogReader(const LogFile& log);
   ~RawlogReader();
   RawlogReader(RawlogReader&&) noexcept;
   RawlogReader& operator=(RawlogReader&&) = delete;
 
-  /// @return the next object, none at the clean end of the log.
-  /// @throw CorruptRawlog with the number of good objects and the byte offset; the first object
-  /// being unreadable means that the file is no rawlog, and the message says so. From then on there
-  /// is none.
+  /// @return the next object, none at the end of the log.
+  /// @throw CorruptRawlog, unless damage is accepted, with the number of good objects, the last
+  /// stamp and the byte offset; always where the first object is unreadable, which means that the
+  /// file is no rawlog. From then on there is none.
   [[nodiscard]] std::optional<RawlogEntry> next();
+
+  /// Why the log ended before its clean end, where damage is accepted.
+  [[nodiscard]] const std::optional<std::string>& damage() const { return damage_; }
 
   /// Share of the file read so far, 0 to 1.
   [[nodiscard]] double progress() const;
 
  private:
   void announce_external_storage() const;
-  [[noreturn]] void fail(const std::string& reason);
+  [[nodiscard]] std::optional<std::string> read_object(RawlogEntry& entry);
+  void end(const std::string& reason);
 
-  std::string path_, external_storage_;
+  LogFile log_;
+  std::string external_storage_;
   std::unique_ptr<RecordingGzipReader> stream_;
   std::unique_ptr<mrpt::serialization::CArchive> archive_;
   std::size_t num_good_ = 0;
-  bool has_failed_ = false;
+  std::optional<Stamp> last_stamp_;
+  std::optional<std::string> damage_;
 };
 
 /// @brief Writes a gzip rawlog under a temporary name beside `path`; it gets its own name on

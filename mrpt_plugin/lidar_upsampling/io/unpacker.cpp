@@ -122,7 +122,9 @@ std::size_t Unpacker::inflate(std::vector<std::uint8_t>& block) {
       if (!has_input && done == before) return end(done, "the gzip stream is cut off");
       continue;
     }
-    if (!starts_member()) return end(done, {});
+    if (!starts_member())
+      return size_ == 0 ? end(done, {})
+                        : end(done, "the gzip stream is damaged: what follows it is none");
     isal_inflate_reset(&state);
     state.crc_flag = ISAL_GZIP;
   }

@@ -16,8 +16,9 @@ namespace lidar_upsampling {
 /// @throw std::runtime_error always.
 [[noreturn]] void throw_open_error(const std::string& path, const char* purpose, int error_number);
 
-/// @brief Unpacks a file block by block: gzip (RFC 1952), its members one after the other and
-/// whatever follows them left out, as gunzip does; or a plain file, as it is.
+/// @brief Unpacks a file block by block: gzip (RFC 1952), its members one after the other; or
+/// a plain file, as it is. What follows a member must be another one: gunzip leaves out anything
+/// else, and with it all members that come after one whose header is damaged.
 class Unpacker {
  public:
   /// @throw std::runtime_error the file cannot be opened, or is a folder.

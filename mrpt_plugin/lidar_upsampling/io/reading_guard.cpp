@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the lidar_upsampling authors
+#include "lidar_upsampling/io/reading_guard.h"
+
+#include <mrpt/rtti/CObject.h>
+
+// jpeglib.h needs it before.
+#include <cstdio>
+
+#include <jpeglib.h>
+
+#include <cstdlib>
+#include <exception>
+#include <limits>
+#include <memory>
+#include <new>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "lidar_upsampling/io/rebinding.h"
+
+namespace lidar_upsampling {
+namespace {
+
+constexpr std::uint64_t kAlwaysFine = 1U << 24U;
+
+thread_local ReadingGuard* innermost = nullptr;
+
+class TooMuch : public std::bad_alloc {
+ public:
+  explicit TooMuch(std::uint64_t size)
+      : text_("it asks for " + std::to_string(size) + " bytes, more than the file can fill") {}
+  [[nodiscard]] const char* what() const noexcept override { return text_.c_str(); }
+
+ private:
+  std::string text_;
+};
+
+// Destructors of MRPT's ask for memory, too, and an exception out of them would be the end.
+void refuse_excess(std::uint64_t size, std::uint64_t per_byte = 1) {
+  if (size <= kAlwaysFine || innermost == nullptr || std::uncaught_exceptions() > 0) return;
+  ReadingGuard& guard = *innermost;
+  const ReadingGuard::Pause pause;  // it asks for memory itself
+  guard.check(size, per_byte);
+}
+
+void* aligned_malloc(std::size_t size, std::size_t alignment) {
+  refuse_excess(size);
+  if (size > static_cast<std::size_t>(std::numeric_limits<std::ptrdiff_t>::max()))
+    throw std::bad_alloc();
+  void* const memory =
+      std::aligned_alloc(alignment, (size + alignment - 1) / alignment * alignment);
+  if (memory == nullptr) throw std::bad_alloc();
+  return memory;
+}
+
+void* (*system_new)(std::size_t) = nullptr;
+
+void* checked_new(std::size_t size) {
+  refuse_excess(size);
+  return system_new(size);
+}
+
+jpeg_error_mgr* (*system_jpeg_error)(jpeg_error_mgr*) = nullptr;
+
+[[noreturn]] void throw_jpeg_error(j_common_ptr picture) {
+  char text[JMSG_LENGTH_MAX];
+  picture->err->format_message(picture, text);
+  if (picture->mem != nullptr) picture->mem->self_destruct(picture);
+  throw std::runtime_error(std::string(kBrokenJpeg) + text);
+}
+
+// It is told of the frame's size, too, when that has been read.
+void hear_jpeg_message(j_common_ptr picture, int level) {
+  constexpr std::uint64_t kMostPacked = 200;  // of one colour all over, a byte is some 170
+  if (level < 0) ++picture->err->num_warnings;
+  if (picture->is_decompressor == FALSE) return;
+  const auto* const reading = reinterpret_cast<j_decompress_ptr>(picture);
+  refuse_excess(std::uint64_t{reading->image_width} * reading->image_height *
+                    static_cast<std::uint64_t>(reading->num_components),
+                kMostPacked);
+}
+
+void say_nothing(j_common_ptr) {}
+
+jpeg_error_mgr* throwing_jpeg_error(jpeg_error_mgr* manager) {
+  system_jpeg_error(manager);
+  manager->error_exit = throw_jpeg_error;
+  manager->emit_message = hear_jpeg_message;
+  manager->output_message = say_nothing;
+  return manager;
+}
+
+std::shared_ptr<mrpt::rtti::CObject> create_object(const mrpt::rtti::TRuntimeClassId* of_class) {
+  if (of_class->ptrCreateObject) return of_class->ptrCreateObject();
+  throw std::runtime_error(std::string("there are no objects of class ") + of_class->className);
+}
+
+template <typename Function>
+void rebind_to(const char* symbol, Function* replacement, Function*& original) {
+  original = reinterpret_cast<Function*>(function_named(symbol));  // others may call it at once
+  if (original != nullptr) rebind(symbol, reinterpret_cast<void*>(replacement));
+}
+
+void rebind_all() {
+  rebind_to("_Znwm", checked_new, system_new);
+  rebind_to("jpeg_std_error", throwing_jpeg_error, system_jpeg_error);
+  rebind("_ZN4mrpt14aligned_mallocEmm", reinterpret_cast<void*>(aligned_malloc));
+  rebind("_ZNK4mrpt4rtti15TRuntimeClassId12createObjectEv", reinterpret_cast<void*>(create_object));
+}
+
+}  // namespace
+
+ReadingGuard::Pause::Pause() : paused_(std::exchange(innermost, nullptr)) {}
+
+ReadingGuard::Pause::~Pause() { innermost = paused_; }
+
+ReadingGuard::ReadingGuard(BytesLeft bytes_left)
+    : bytes_left_(std::move(bytes_left)), outer_(innermost) {
+  static const bool done = [] {
+    rebind_all();
+    return true;
+  }();
+  static_cast<void>(done);
+  innermost = this;
+}
+
+ReadingGuard::~ReadingGuard() { innermost = outer_; }
+
+void ReadingGuard::check(std::uint64_t size, std::uint64_t per_byte) {
+  constexpr std::uint64_t kMostUnknown = 1U << 30U;
+  if (!left_) {
+    const std::optional<std::uint64_t> left = bytes_left_();
+    left_ = left ? *left : kMostUnknown;
+  }
+  if (size > kAlwaysFine + *left_ * per_byte) throw TooMuch(size);
+}
+
+}  // namespace lidar_upsampling
