@@ -15,8 +15,8 @@
 
 #include "drawing.h"
 #include "lidar_upsampling/front_end/pose_input.h"
+#include "lidar_upsampling/front_end/usable_observations.h"
 #include "lidar_upsampling/io/carriers.h"
-#include "lidar_upsampling/io/images.h"
 #include "lidar_upsampling/io/rawlog_stream.h"
 #include "lidar_upsampling/registration/scan_registration.h"
 #include "lidar_upsampling/scan/sweep.h"
@@ -62,7 +62,10 @@ LidarScan moved(LidarScan scan, const Pose& T) {
 class Checker {
  public:
   Checker(const DensifyJob& job, LogCheck& result)
-      : job_(job), result_(result), ego_(job.config.ego_motion) {
+      : job_(job),
+        result_(result),
+        ego_(job.config.ego_motion),
+        usable_(job.rig, job.config.sweep, counted_in(result.unused)) {
     const StreamSelection streams =
         select_streams(result.index, job.config, labels_of_calibrated(job.rig));
     result.lidar_label = streams.lidar->label;
@@ -80,8 +83,9 @@ class Checker {
     if (observation->sensorLabel == result_.lidar_label && is_lidar_scan(*observation))
       feed_scan(*observation);
     const auto camera = cameras_.find(observation->sensorLabel);
-    auto* image = dynamic_cast<CObservationImage*>(observation.get());
+    const auto* const image = dynamic_cast<const CObservationImage*>(observation.get());
     if (camera != cameras_.end() && image != nullptr) feed_image(camera->second, *image);
+    usable_.ego(*observation);
   }
 
   void finish() {
@@ -117,10 +121,9 @@ class Checker {
     }
   }
 
-  void feed_scan(CObservation& observation) {
-    std::optional<LidarScan> scan = scan_from_observation(observation);
-    if (!scan || scan->points.empty()) return;
-    apply(job_.rig, *scan);
+  void feed_scan(const CObservation& observation) {
+    std::optional<LidarScan> scan = usable_.scan(observation);
+    if (!scan) return;
     const double period_ms = job_.config.sweep.period_ms;
     const double turn_s = period_ms > 0 ? 1e-3 * period_ms : period_s_;
     if (chosen_.count(scan->stamp) > 0) {
@@ -137,16 +140,16 @@ class Checker {
     previous_ = std::make_shared<LidarScan>(std::move(*scan));
   }
 
-  void feed_image(CameraUnderway& camera, CObservationImage& observation) {
+  void feed_image(CameraUnderway& camera, const CObservationImage& observation) {
     const auto pair = camera.scan_of_image.find(observation.timestamp);
     if (pair == camera.scan_of_image.end()) return;
-    CameraImage image = image_from_observation(observation);
-    apply(job_.rig, image.camera);
+    std::optional<CameraImage> image = usable_.image(observation);
+    if (!image) return;
     const auto scan = scans_.find(pair->second);
     if (scan != scans_.end())
-      compare(camera, scan->second, image);
+      compare(camera, scan->second, *image);
     else
-      camera.waiting[image.stamp] = std::move(image);
+      camera.waiting[image->stamp] = std::move(*image);
   }
 
   void meet_waiting(CameraUnderway& camera, const PlacedScan& scan) {
@@ -216,6 +219,7 @@ class Checker {
   const DensifyJob& job_;
   LogCheck& result_;
   EgoMotion ego_;
+  UsableObservations usable_;
   double period_s_ = 0;
   std::set<Stamp> chosen_;
   std::map<Stamp, PlacedScan> scans_;  ///< the last ones chosen
@@ -229,10 +233,10 @@ class Checker {
 LogCheck check_log(const DensifyJob& job, const std::function<void(double)>& progress) {
   constexpr double kIndexShare = 0.2;
   LogCheck result;
-  result.index = index_log(job.input, [&](double share) { progress(kIndexShare * share); });
+  result.index = index_log({job.input, true}, [&](double share) { progress(kIndexShare * share); });
   take_poses_from_file(job.config, job.rig, result.index);
   Checker checker(job, result);
-  RawlogReader reader(job.input);
+  RawlogReader reader(LogFile(job.input, true));
   for (std::size_t i = 0; i < result.index.num_objects; ++i) {
     const auto entry = reader.next();
     if (!entry) break;

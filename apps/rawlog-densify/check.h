@@ -9,6 +9,7 @@
 
 #include "densify.h"
 #include "lidar_upsampling/ego/time_offset.h"
+#include "lidar_upsampling/front_end/usable_observations.h"
 #include "lidar_upsampling/io/log_index.h"
 
 namespace lidar_upsampling {
@@ -34,6 +35,7 @@ struct LogCheck {
   bool has_point_times = false;
   double time_offset_in_force_ms = 0;
   std::vector<CameraCheck> cameras;
+  UnusedCounts unused;
 };
 
 /// @brief Looks through a log before it is densified; nothing is written but `job.pictures`.

@@ -58,6 +58,7 @@ std::string to_text(const LogCheck& check) {
   text << "log           " << check.index.path << ", " << check.index.num_objects << " entries"
        << (check.index.has_frames ? " with sensory frames" : "") << '\n';
   if (check.index.corruption) text << "broken        " << *check.index.corruption << '\n';
+  for (const auto& count : check.unused) text << "not used      " << to_text(count) << '\n';
   std::istringstream streams(describe(check.index));
   for (std::string line; std::getline(streams, line);) text << "stream        " << line << '\n';
   text << "ego-motion    " << check.ego_source

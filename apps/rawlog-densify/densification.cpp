@@ -10,7 +10,6 @@
 #include <utility>
 
 #include "lidar_upsampling/io/carriers.h"
-#include "lidar_upsampling/io/images.h"
 
 namespace lidar_upsampling {
 
@@ -22,7 +21,11 @@ constexpr double kEgoMemory_s = 5;
 }  // namespace
 
 Densification::Densification(const DensifyJob& job, const LogIndex& index, DensifyReport& report)
-    : job_(job), report_(report), upsampler_(job.config) {
+    : job_(job),
+      report_(report),
+      upsampler_(job.config),
+      usable_(job.rig, job.config.sweep,
+              [&report](const std::string& text) { report.warn(text); }) {
   const StreamSelection streams = select_streams(index, job.config, labels_of_calibrated(job.rig));
   lidar_label_ = streams.lidar->label;
   take_streams(streams);
@@ -34,7 +37,7 @@ Densification::Densification(const DensifyJob& job, const LogIndex& index, Densi
   report.ego_source = to_string(upsampler_.ego_motion().source());
   if (!job.pictures.empty()) pictures_.emplace(job.pictures);
   if (!job.film.empty()) film_.emplace(job.film);
-  if (job.config.mode == "offline") ahead_.emplace(lidar_label_, job.rig);
+  if (job.config.mode == "offline") ahead_.emplace(lidar_label_, job.rig, job.config.sweep);
 }
 
 void Densification::take_streams(const StreamSelection& streams) {
@@ -82,6 +85,7 @@ std::optional<VirtualScan> Densification::feed(const CObservation::Ptr& observat
   if (observation->sensorLabel == lidar_label_ && is_lidar_scan(*observation))
     return noted(feed_scan(observation));
   if (camera_labels_.count(observation->sensorLabel) > 0) return noted(feed_image(*observation));
+  usable_.ego(*observation);
   return {};
 }
 
@@ -95,18 +99,8 @@ std::optional<VirtualScan> Densification::feed_scan(const CObservation::Ptr& obs
   ++report_.num_scans;
   ++num_fed_;
   last_real_ = observation;
-  std::optional<LidarScan> scan;
-  try {
-    scan = scan_from_observation(*observation);
-  } catch (const std::runtime_error& error) {
-    report_.warn(std::string("a scan was left out: ") + error.what());
-    return {};
-  }
-  if (scan->points.empty()) {
-    report_.warn("a scan without points was left out");
-    return {};
-  }
-  apply(job_.rig, *scan);
+  std::optional<LidarScan> scan = usable_.scan(*observation);
+  if (!scan) return {};
   if (learns_) upsampler_.ego_motion().forget_before(shifted(last_stamp_, -kEgoMemory_s));
   last_stamp_ = scan->stamp;
   if (pictures_) pictures_->real_scan(*scan);
@@ -135,21 +129,15 @@ void Densification::expect_scans() {
   }
 }
 
-std::optional<VirtualScan> Densification::feed_image(CObservation& observation) {
-  auto* image_observation = dynamic_cast<CObservationImage*>(&observation);
+std::optional<VirtualScan> Densification::feed_image(const CObservation& observation) {
+  const auto* const image_observation = dynamic_cast<const CObservationImage*>(&observation);
   if (image_observation == nullptr) return {};
   ++report_.num_images;
-  CameraImage image;
-  try {
-    image = image_from_observation(*image_observation);
-  } catch (const std::runtime_error& error) {
-    report_.warn(std::string("an image was left out: ") + error.what());
-    return {};
-  }
-  apply(job_.rig, image.camera);
-  if (pictures_) pictures_->image(image);
-  if (film_) film_->image(image);
-  return upsampler_.insert_image(image);
+  const std::optional<CameraImage> image = usable_.image(*image_observation);
+  if (!image) return {};
+  if (pictures_) pictures_->image(*image);
+  if (film_) film_->image(*image);
+  return upsampler_.insert_image(*image);
 }
 
 std::optional<VirtualScan> Densification::noted(std::optional<VirtualScan> scan) {

@@ -13,6 +13,7 @@
 
 #include "densify.h"
 #include "film.h"
+#include "lidar_upsampling/front_end/usable_observations.h"
 #include "lidar_upsampling/io/log_index.h"
 #include "lidar_upsampling/upsampler.h"
 #include "pictures.h"
@@ -62,12 +63,13 @@ class Densification {
   void take_streams(const StreamSelection& streams);
   void take_ego(const EgoNews& news);
   void expect_scans();
-  std::optional<VirtualScan> feed_image(mrpt::obs::CObservation& observation);
+  std::optional<VirtualScan> feed_image(const mrpt::obs::CObservation& observation);
   std::optional<VirtualScan> noted(std::optional<VirtualScan> scan);
 
   const DensifyJob& job_;
   DensifyReport& report_;
   LidarUpsampler upsampler_;
+  UsableObservations usable_;
   mrpt::obs::CObservation::Ptr last_real_;
   std::string lidar_label_;
   Stamp last_stamp_;                              ///< of a scan

@@ -4,7 +4,7 @@
 
 #include <mrpt/obs/CSensoryFrame.h>
 
-#include <stdexcept>
+#include <utility>
 
 #include "lidar_upsampling/io/carriers.h"
 
@@ -28,13 +28,7 @@ void ScansAhead::add(const RawlogEntry& entry) {
 
 void ScansAhead::add_observation(const CObservation& observation) {
   if (observation.sensorLabel != lidar_label_ || !is_lidar_scan(observation)) return;
-  try {
-    auto scan = scan_from_observation(observation);
-    if (!scan || scan->points.empty()) return;
-    apply(rig_, *scan);
-    read_.push_back(std::move(*scan));
-  } catch (const std::runtime_error&) {  // told when its own turn comes
-  }
+  if (auto scan = usable_.scan(observation)) read_.push_back(std::move(*scan));
 }
 
 }  // namespace lidar_upsampling

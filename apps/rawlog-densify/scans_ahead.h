@@ -9,6 +9,7 @@
 #include <string>
 #include <utility>
 
+#include "lidar_upsampling/front_end/usable_observations.h"
 #include "lidar_upsampling/io/rawlog_stream.h"
 #include "lidar_upsampling/io/rig_overrides.h"
 #include "lidar_upsampling/types.h"
@@ -16,11 +17,12 @@
 namespace lidar_upsampling {
 
 /// @brief The scans of a log a little before the log's own turn: what a run that is not live may
-/// know. Unreadable ones are passed over.
+/// know. Those that cannot be used are passed over.
 class ScansAhead {
  public:
-  ScansAhead(std::string lidar_label, const RigOverrides& rig)
-      : lidar_label_(std::move(lidar_label)), rig_(rig) {}
+  /// @param rig, sweep must outlive this.
+  ScansAhead(std::string lidar_label, const RigOverrides& rig, const SweepOptions& sweep)
+      : lidar_label_(std::move(lidar_label)), usable_(rig, sweep) {}
 
   /// An entry of the log, ahead of its turn.
   void add(const RawlogEntry& entry);
@@ -33,7 +35,7 @@ class ScansAhead {
   void add_observation(const mrpt::obs::CObservation& observation);
 
   std::string lidar_label_;
-  const RigOverrides& rig_;
+  UsableObservations usable_;  ///< what is not is told when its own turn comes
   std::deque<LidarScan> read_;
 };
 

@@ -14,8 +14,8 @@
 #include "key_objects.h"
 #include "label_judge.h"
 #include "lidar_upsampling/front_end/pose_input.h"
+#include "lidar_upsampling/front_end/usable_observations.h"
 #include "lidar_upsampling/io/carriers.h"
-#include "lidar_upsampling/io/images.h"
 #include "lidar_upsampling/io/sensory_frame.h"
 #include "lidar_upsampling/objects/ground.h"
 #include "lidar_upsampling/registration/scan_registration.h"
@@ -49,7 +49,8 @@ class Walk {
     const std::vector<Stamp>& real = input.find(result.label, StreamKind::lidar)->stamps;
     if (reference != nullptr) {
       const StreamInfo& stream = reference_stream(*reference, result.label);
-      references_.emplace(job.reference, stream.label, stream.stamps, real, job.tolerance_s);
+      references_.emplace(LogFile(job.reference, job.accept_truncated), stream.label, stream.stamps,
+                          real, job.tolerance_s);
       if (references_->none_withheld())
         result_.notes.emplace_back("no scan was withheld: judged by real scans that the log holds");
     }
@@ -72,21 +73,21 @@ class Walk {
     const bool is_scan = is_lidar_scan(*observation);
     if (is_scan && observation->sensorLabel == result_.virtual_label) {
       ++result_.num_virtual;
-      if (auto scan = scan_from_observation(*observation))
-        ours_.push_back({std::move(*scan), pictures_});
+      if (auto scan = usable_.scan(*observation)) ours_.push_back({std::move(*scan), pictures_});
       return;
     }
     remember_picture(*observation);
     if (paper_) take(paper_->feed(observation));
     if (!is_scan || observation->sensorLabel != result_.label) return;
     judge_waiting();
-    if (auto scan = scan_from_observation(*observation)) take_key(std::move(*scan));
+    if (auto scan = usable_.scan(*observation)) take_key(std::move(*scan));
   }
 
   void finish() {
     if (paper_) take(paper_->flush());
     judge_waiting();
     queue_.finish();
+    for (const auto& count : unused_) result_.notes.push_back(to_text(count));
     if (labels_) judge_by_labels();
   }
 
@@ -103,12 +104,12 @@ class Walk {
 
   void remember_picture(mrpt::obs::CObservation& observation) {
     if (!job_.on_scan) return;
-    if (auto* image = dynamic_cast<mrpt::obs::CObservationImage*>(&observation))
-      pictures_[observation.sensorLabel] = image_from_observation(*image);
+    if (const auto* image = dynamic_cast<const mrpt::obs::CObservationImage*>(&observation))
+      if (auto picture = usable_.image(*image))
+        pictures_[observation.sensorLabel] = std::move(*picture);
   }
 
   void take_key(LidarScan scan) {
-    if (scan.points.empty()) return;
     const auto previous = std::exchange(key_, std::make_shared<KeyScan>());
     key_->scan = std::move(scan);
     const LidarScan& key = key_->scan;
@@ -214,6 +215,8 @@ class Walk {
   std::vector<Waiting> ours_;
   std::vector<LidarScan> papers_;
   Pictured pictures_;
+  UnusedCounts unused_;
+  UsableObservations usable_{counted_in(unused_)};
   ScanQueue queue_;
   Twist ego_rate_ = Twist::Zero();  ///< per second, of the last ego-motion: the next one's guess
 };
@@ -233,10 +236,13 @@ LogResult evaluate_log(const EvaluationJob& job, const std::function<void(double
   LogIndex input;
   std::optional<LogIndex> reference;
   mrpt::rtti::registerAllPendingClasses();  // not by two threads at a time
-  tbb::parallel_invoke([&] { input = whole_index(job.input); },
-                       [&] {
-                         if (!job.reference.empty()) reference = whole_index(job.reference);
-                       });
+  tbb::parallel_invoke(
+      [&] {
+        input = index_log({job.input, job.accept_truncated});
+      },
+      [&] {
+        if (!job.reference.empty()) reference = index_log({job.reference, job.accept_truncated});
+      });
   take_poses_from_file(job.paper.config, job.paper.rig, input);
   LogResult result;
   result.input = job.input;
@@ -246,8 +252,10 @@ LogResult evaluate_log(const EvaluationJob& job, const std::function<void(double
   result.tolerance_s = job.tolerance_s;
   result.has_truth = !job.truth_objects.empty();
   if (job.options.protocol) result.protocol = job.options.protocol->name;
+  if (input.corruption) result.notes.push_back(*input.corruption);
+  if (reference && reference->corruption) result.notes.push_back(*reference->corruption);
   Walk walk(job, input, reference ? &*reference : nullptr, result);
-  RawlogReader reader(job.input);
+  RawlogReader reader({job.input, job.accept_truncated});
   while (const auto entry = reader.next()) {
     feed_entry(*entry, walk);
     progress(reader.progress());

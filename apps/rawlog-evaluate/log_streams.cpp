@@ -46,12 +46,6 @@ std::vector<Camera> calibrated_cameras(const LogIndex& index) {
   return cameras;
 }
 
-LogIndex whole_index(const std::string& path) {
-  LogIndex index = index_log(path);
-  if (index.corruption) throw std::runtime_error(*index.corruption);
-  return index;
-}
-
 LogIndex without_virtual(LogIndex index, const std::string& virtual_label) {
   auto& streams = index.streams;
   streams.erase(std::remove_if(streams.begin(), streams.end(),

@@ -23,9 +23,6 @@ extern const char* const kVirtualEnding;
 
 [[nodiscard]] std::vector<Camera> calibrated_cameras(const LogIndex& index);
 
-/// @throw std::runtime_error the log is cut off or corrupt.
-[[nodiscard]] LogIndex whole_index(const std::string& path);
-
 /// The log as it was before it was densified.
 [[nodiscard]] LogIndex without_virtual(LogIndex index, const std::string& virtual_label);
 

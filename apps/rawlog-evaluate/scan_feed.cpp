@@ -12,14 +12,14 @@
 
 namespace lidar_upsampling {
 
-ScanFeed::ScanFeed(const std::string& path, std::function<bool(const std::string&, Stamp)> wanted)
-    : reader_(path), wanted_(std::move(wanted)) {}
+ScanFeed::ScanFeed(const LogFile& log, std::function<bool(const std::string&, Stamp)> wanted)
+    : reader_(log), wanted_(std::move(wanted)) {}
 
 std::optional<LidarScan> ScanFeed::next() {
   const auto take = [this](mrpt::obs::CObservation& observation) {
     if (!is_lidar_scan(observation) || !wanted_(observation.sensorLabel, observation.timestamp))
       return;
-    if (auto scan = scan_from_observation(observation)) waiting_.push_back(std::move(*scan));
+    if (auto scan = usable_.scan(observation)) waiting_.push_back(std::move(*scan));
   };
   while (waiting_.empty()) {
     const auto entry = reader_.next();
@@ -36,13 +36,13 @@ std::optional<LidarScan> ScanFeed::next() {
   return scan;
 }
 
-ReferenceScans::ReferenceScans(const std::string& path, const std::string& label,
+ReferenceScans::ReferenceScans(const LogFile& log, const std::string& label,
                                std::vector<Stamp> stamps, const std::vector<Stamp>& kept,
                                double tolerance_s)
     : stamps_(std::move(stamps)),
       kept_(kept),
       tolerance_s_(tolerance_s),
-      feed_(path, [this, label](const std::string& of_scan, Stamp stamp) {
+      feed_(log, [this, label](const std::string& of_scan, Stamp stamp) {
         return of_scan == label && stamp >= asked_;
       }) {
   std::sort(stamps_.begin(), stamps_.end());

@@ -8,17 +8,18 @@
 #include <string>
 #include <vector>
 
+#include "lidar_upsampling/front_end/usable_observations.h"
 #include "lidar_upsampling/io/rawlog_stream.h"
 #include "lidar_upsampling/types.h"
 
 namespace lidar_upsampling {
 
-/// @brief The scans of a log that are asked for, one after the other, whether they stand alone or
-/// in sensory frames.
+/// @brief The usable scans of a log that are asked for, one after the other, whether they stand
+/// alone or in sensory frames.
 class ScanFeed {
  public:
   /// @param wanted by label and stamp; only wanted scans are decoded.
-  ScanFeed(const std::string& path, std::function<bool(const std::string&, Stamp)> wanted);
+  ScanFeed(const LogFile& log, std::function<bool(const std::string&, Stamp)> wanted);
 
   /// @return the next scan, none at the end. @throw CorruptRawlog, std::runtime_error
   [[nodiscard]] std::optional<LidarScan> next();
@@ -27,6 +28,7 @@ class ScanFeed {
  private:
   RawlogReader reader_;
   std::function<bool(const std::string&, Stamp)> wanted_;
+  UsableObservations usable_;
   std::deque<LidarScan> waiting_;  // of the same sensory frame
 };
 
@@ -44,7 +46,7 @@ class ReferenceScans {
   /// @param stamps of the label's scans in the log.
   /// @param kept stamps of the scans that the densified log still holds; where all are kept, each
   /// counts as withheld.
-  ReferenceScans(const std::string& path, const std::string& label, std::vector<Stamp> stamps,
+  ReferenceScans(const LogFile& log, const std::string& label, std::vector<Stamp> stamps,
                  const std::vector<Stamp>& kept, double tolerance_s);
 
   ReferenceScans(const ReferenceScans&) = delete;

@@ -22,8 +22,8 @@ using mrpt::obs::CObservationImage;
 LiveUpsampling::LiveUpsampling(const Config& config, const RigOverrides& rig, Messages& messages,
                                const std::vector<PoseSample>& given_poses)
     : config_(config),
-      rig_(rig),
       messages_(messages),
+      usable_(rig, config.sweep, [&messages](const std::string& text) { messages.add(text); }),
       upsampler_(config),
       has_given_poses_(!given_poses.empty()) {
   for (const PoseSample& sample : given_poses) upsampler_.ego_motion().add_pose(sample);
@@ -78,12 +78,8 @@ std::optional<VirtualScan> LiveUpsampling::work_on(const Arrived& arrived) {
 
 std::optional<VirtualScan> LiveUpsampling::insert_scan(const CObservation::Ptr& real) {
   constexpr double kEgoMemory_s = 5;
-  std::optional<LidarScan> scan = scan_from_observation(*real);
-  if (!scan || scan->points.empty()) {
-    messages_.add("'" + real->sensorLabel + "': a scan without points is passed on unused");
-    return {};
-  }
-  apply(rig_, *scan);
+  std::optional<LidarScan> scan = usable_.scan(*real);
+  if (!scan) return {};
   last_real_ = real;
   upsampler_.ego_motion().forget_before(shifted(scan->stamp, -kEgoMemory_s));
   return upsampler_.insert_scan(std::move(*scan));
@@ -91,17 +87,16 @@ std::optional<VirtualScan> LiveUpsampling::insert_scan(const CObservation::Ptr& 
 
 std::optional<VirtualScan> LiveUpsampling::insert_image(const Arrived& arrived) {
   constexpr std::size_t kMostRemembered = 100;
-  auto& observation = dynamic_cast<CObservationImage&>(*arrived.observation);
-  CameraImage image = image_from_observation(observation);
-  apply(rig_, image.camera);
-  cameras_.insert(image.camera.label);
-  image_arrivals_[image.stamp] = arrived.time;
+  const auto image = usable_.image(dynamic_cast<const CObservationImage&>(*arrived.observation));
+  if (!image) return {};
+  cameras_.insert(image->camera.label);
+  image_arrivals_[image->stamp] = arrived.time;
   if (image_arrivals_.size() > kMostRemembered) image_arrivals_.erase(image_arrivals_.begin());
-  return upsampler_.insert_image(image, arrived.is_hurried ? Effort::prediction : Effort::full);
+  return upsampler_.insert_image(*image, arrived.is_hurried ? Effort::prediction : Effort::full);
 }
 
 void LiveUpsampling::learn_ego_motion(const CObservation& observation) {
-  if (!is_listened_to(observation)) return;
+  if (!usable_.ego(observation) || !is_listened_to(observation)) return;
   EgoSamples samples;
   samples.add_observation(observation);
   EgoMotion& ego_motion = upsampler_.ego_motion();

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "lidar_upsampling/front_end/usable_observations.h"
 #include "lidar_upsampling/front_end/virtual_observations.h"
 #include "lidar_upsampling/io/rig_overrides.h"
 #include "lidar_upsampling/upsampler.h"
@@ -47,8 +48,8 @@ class LiveUpsampling : public Upsampling {
   [[nodiscard]] std::vector<Emitted> release();
 
   const Config& config_;
-  const RigOverrides& rig_;
   Messages& messages_;
+  UsableObservations usable_;
   LidarUpsampler upsampler_;
   bool has_given_poses_;
   mrpt::obs::CObservation::Ptr last_real_;

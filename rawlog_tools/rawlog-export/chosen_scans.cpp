@@ -9,7 +9,6 @@
 
 #include "lidar_upsampling/io/carriers.h"
 #include "lidar_upsampling/io/log_index.h"
-#include "lidar_upsampling/io/rawlog_stream.h"
 
 namespace lidar_upsampling::exporting {
 namespace {
@@ -70,26 +69,28 @@ void for_each_observation(const RawlogEntry& entry,
 
 }  // namespace
 
-std::size_t for_each_chosen_scan(const std::string& path, const Choice& choice,
-                                 const std::function<void(double)>& progress,
-                                 const std::function<void(const LidarScan&)>& use) {
-  const LogIndex index = index_log(path);
-  if (index.corruption) throw std::runtime_error(*index.corruption);
+ReadScans for_each_chosen_scan(const LogFile& log, const Choice& choice,
+                               const std::function<void(double)>& progress,
+                               const std::function<void(const LidarScan&)>& use) {
+  const LogIndex index = index_log(log);
   const StreamInfo& stream = stream_of(index, choice.label);
-  const auto chosen = chosen_index(stream, choice, path);
-  std::size_t number = 0, num_used = 0;
-  RawlogReader reader(path);
+  const auto chosen = chosen_index(stream, choice, log.path);
+  std::size_t number = 0;
+  ReadScans read;
+  UsableObservations usable(counted_in(read.unused));
+  RawlogReader reader(log);
   while (const auto entry = reader.next()) {
     for_each_observation(*entry, [&](const mrpt::obs::CObservation::Ptr& observation) {
       if (observation->sensorLabel != stream.label || !is_lidar_scan(*observation)) return;
       if (!chosen || number == *chosen) {
-        if (const auto scan = scan_from_observation(*observation)) use(*scan), ++num_used;
+        if (const auto scan = usable.scan(*observation)) use(*scan), ++read.count;
       }
       ++number;
     });
     progress(reader.progress());
   }
-  return num_used;
+  read.damage = reader.damage();
+  return read;
 }
 
 }  // namespace lidar_upsampling::exporting

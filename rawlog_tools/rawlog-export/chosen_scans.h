@@ -6,6 +6,8 @@
 #include <optional>
 #include <string>
 
+#include "lidar_upsampling/front_end/usable_observations.h"
+#include "lidar_upsampling/io/rawlog_stream.h"
 #include "lidar_upsampling/types.h"
 
 namespace lidar_upsampling::exporting {
@@ -17,12 +19,17 @@ struct Choice {
   std::optional<Stamp> stamp;        ///< the nearest one to this instant
 };
 
+struct ReadScans {
+  std::size_t count = 0;              ///< that were handed over
+  UnusedCounts unused;                ///< of those that are of no use
+  std::optional<std::string> damage;  ///< of the log, where that is accepted
+};
+
 /// @brief Hands over the chosen scans in the log's order.
 /// @param progress gets the share read, 0 to 1.
-/// @return their number.
 /// @throw std::runtime_error no such label, with those there are; no such index; a broken log.
-std::size_t for_each_chosen_scan(const std::string& path, const Choice& choice,
-                                 const std::function<void(double)>& progress,
-                                 const std::function<void(const LidarScan&)>& use);
+ReadScans for_each_chosen_scan(const LogFile& log, const Choice& choice,
+                               const std::function<void(double)>& progress,
+                               const std::function<void(const LidarScan&)>& use);
 
 }  // namespace lidar_upsampling::exporting

@@ -21,7 +21,7 @@ namespace {
 struct Options {
   std::string input, output, format = "ply", label, stamp, report;
   int index = -1, track = -1;
-  bool overwrite = false;
+  bool overwrite = false, accept_truncated = false;
 };
 
 /// The folder's index.csv, a row per file; written when all files are there.
@@ -95,17 +95,19 @@ void export_scans(const Options& options) {
   if (!options.report.empty()) objects = read_report(options.report);
   const Choice choice = choice_of(options, objects);
   IndexTable table(options.output, options.overwrite);
-  std::size_t num_files = 0;
+  ReadScans read;
   {
     Progress progress("exporting");
-    num_files =
-        for_each_chosen_scan(options.input, choice, std::ref(progress), [&](const LidarScan& scan) {
-          table.make_folder();
-          table.add(write_one(options, objects, scan), scan);
-        });
+    read = for_each_chosen_scan({options.input, options.accept_truncated}, choice,
+                                std::ref(progress), [&](const LidarScan& scan) {
+                                  table.make_folder();
+                                  table.add(write_one(options, objects, scan), scan);
+                                });
   }
   table.write();
-  std::cout << num_files << (num_files == 1 ? " file" : " files") << " in " << options.output
+  for (const auto& count : read.unused) warn("rawlog-export", to_text(count));
+  if (read.damage) warn("rawlog-export", *read.damage);
+  std::cout << read.count << (read.count == 1 ? " file" : " files") << " in " << options.output
             << ", listed in its index.csv\n";
 }
 
@@ -138,6 +140,8 @@ int main(int argc, char** argv) {
   stamp->excludes(track);
   track->needs(report);
   app.add_flag("--overwrite", options.overwrite, "replace an export in the folder");
+  app.add_flag("--accept-truncated", options.accept_truncated,
+               "of a damaged log, take what comes before the damage");
   app.callback([&] {
     if (options.format != "3Dscene" && (*report || *track))
       throw CLI::ValidationError("--report and --track need --format 3Dscene");

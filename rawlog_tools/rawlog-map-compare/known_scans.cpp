@@ -7,6 +7,7 @@
 #include <optional>
 #include <stdexcept>
 
+#include "lidar_upsampling/front_end/usable_observations.h"
 #include "lidar_upsampling/io/carriers.h"
 #include "lidar_upsampling/io/log_index.h"
 #include "lidar_upsampling/io/rawlog_stream.h"
@@ -25,17 +26,17 @@ Trajectory joined(const std::vector<PoseSample>& samples) {
   return trajectory;
 }
 
-Trajectory registered(const std::string& path) {
+Trajectory registered(const LogFile& log) {
   Trajectory trajectory(kLimits);
   std::optional<LidarScan> previous;
   Pose T_world_lidar = Pose::Identity(), step = Pose::Identity();
-  for_each_scan(path, [&](const LidarScan& scan) {
+  for_each_scan(log, [&](const LidarScan& scan) {
     if (is_virtual(scan.label)) return;
     if (previous) {
       const auto found = register_scans(scan.points, previous->points, step);
       if (!found)
-        throw std::runtime_error(path + ": has no poses, and the scan at " + to_text(scan.stamp) +
-                                 " cannot be registered to the one before");
+        throw std::runtime_error(log.path + ": has no poses, and the scan at " +
+                                 to_text(scan.stamp) + " cannot be registered to the one before");
       step = found->T_target_source;
       T_world_lidar = T_world_lidar * step;
     }
@@ -43,7 +44,8 @@ Trajectory registered(const std::string& path) {
     previous = scan;
   });
   if (trajectory.size() < 2)
-    throw std::runtime_error(path + ": has neither poses nor two real scans: no way to map along");
+    throw std::runtime_error(log.path +
+                             ": has neither poses nor two real scans: no way to map along");
   return trajectory;
 }
 
@@ -55,12 +57,15 @@ bool is_virtual(const std::string& label) {
          label.compare(label.size() - ending.size(), ending.size(), ending) == 0;
 }
 
-void for_each_scan(const std::string& path, const std::function<void(const LidarScan&)>& use) {
+std::vector<std::string> for_each_scan(const LogFile& log,
+                                       const std::function<void(const LidarScan&)>& use) {
+  UnusedCounts unused;
+  UsableObservations usable(counted_in(unused));
   const auto use_scan = [&](mrpt::obs::CObservation& observation) {
     if (!is_lidar_scan(observation)) return;
-    if (const auto scan = scan_from_observation(observation)) use(*scan);
+    if (const auto scan = usable.scan(observation)) use(*scan);
   };
-  RawlogReader reader(path);
+  RawlogReader reader(log);
   while (const auto entry = reader.next()) {
     if (auto* const frame = dynamic_cast<mrpt::obs::CSensoryFrame*>(entry->object.get())) {
       for (const auto& observation : *frame) use_scan(*observation);
@@ -68,14 +73,17 @@ void for_each_scan(const std::string& path, const std::function<void(const Lidar
       use_scan(*one);
     }
   }
+  std::vector<std::string> warnings;
+  for (const auto& count : unused) warnings.push_back(to_text(count));
+  if (reader.damage()) warnings.push_back(*reader.damage());
+  return warnings;
 }
 
-Trajectory trajectory_of(const std::string& path) {
-  const LogIndex index = index_log(path);
-  if (index.corruption) throw std::runtime_error(*index.corruption);
+Trajectory trajectory_of(const LogFile& log) {
+  const LogIndex index = index_log(log);
   if (index.poses.size() >= 2) return joined(index.poses);
   if (index.odometry.size() >= 2) return joined(index.odometry);
-  return registered(path);
+  return registered(log);
 }
 
 }  // namespace lidar_upsampling::maps

@@ -4,8 +4,10 @@
 
 #include <functional>
 #include <string>
+#include <vector>
 
 #include "lidar_upsampling/ego/trajectory.h"
+#include "lidar_upsampling/io/rawlog_stream.h"
 #include "lidar_upsampling/types.h"
 
 namespace lidar_upsampling::maps {
@@ -14,12 +16,14 @@ namespace lidar_upsampling::maps {
 [[nodiscard]] bool is_virtual(const std::string& label);
 
 /// @brief Hands over every scan of a log, real and virtual, in its order.
-/// @throw std::runtime_error the log cannot be read to its end.
-void for_each_scan(const std::string& path, const std::function<void(const LidarScan&)>& use);
+/// @return what there is to warn of: scans that are of no use, damage where that is accepted.
+/// @throw std::runtime_error it cannot be read.
+std::vector<std::string> for_each_scan(const LogFile& log,
+                                       const std::function<void(const LidarScan&)>& use);
 
 /// @brief The vehicle's way, from the log's poses or odometry; without them, each real scan
 /// registered to the one before.
 /// @throw std::runtime_error fewer than two poses, or two scans that cannot be registered.
-[[nodiscard]] Trajectory trajectory_of(const std::string& path);
+[[nodiscard]] Trajectory trajectory_of(const LogFile& log);
 
 }  // namespace lidar_upsampling::maps

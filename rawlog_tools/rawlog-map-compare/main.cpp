@@ -17,15 +17,21 @@ struct Options {
   std::string reference, truth_objects;
   std::vector<std::string> logs, simplemaps;
   MapOptions map;
+  bool accept_truncated = false;
 };
 
 std::string stem(const std::string& path) { return std::filesystem::path(path).stem().string(); }
+
+void warn_of(const std::vector<std::string>& warnings) {
+  for (const std::string& text : warnings) warn("rawlog-map-compare", text);
+}
 
 void print_maps(const Options& options, const Reference& reference) {
   std::cout << "| map of | real | virtual | voxels | seen at rest | ghosts | others |\n"
             << "|---|---|---|---|---|---|---|\n";
   for (const std::string& log : options.logs) {
-    const MapFigures figures = compare_map(log, reference, options.map);
+    const MapFigures figures = compare_map({log, options.accept_truncated}, reference, options.map);
+    warn_of(figures.warnings);
     std::cout << "| " << stem(log) << " | " << figures.num_real << " | " << figures.num_virtual
               << " | " << figures.num_voxels << " | " << std::fixed << std::setprecision(1)
               << 100 * figures.coverage << " % | "
@@ -54,7 +60,9 @@ void print_paths(const Options& options, const Reference& reference) {
 void compare(const Options& options) {
   std::optional<Truth> truth;
   if (!options.truth_objects.empty()) truth = load_truth(options.truth_objects);
-  const Reference reference = make_reference(options.reference, truth, options.map);
+  const Reference reference =
+      make_reference({options.reference, options.accept_truncated}, truth, options.map);
+  warn_of(reference.warnings);
   if (!options.logs.empty()) print_maps(options, reference);
   if (!options.logs.empty() && !options.simplemaps.empty()) std::cout << '\n';
   if (!options.simplemaps.empty()) print_paths(options, reference);
@@ -79,6 +87,8 @@ int main(int argc, char** argv) {
       ->check(CLI::Range(0.01, 10.));
   app.add_option("--max-range", options.map.max_range_m, "Farther points are left out, m")
       ->check(CLI::Range(1., 1000.));
+  app.add_flag("--accept-truncated", options.accept_truncated,
+               "Of a damaged log, take what comes before the damage");
   app.callback([&] {
     if (options.logs.empty() && options.simplemaps.empty())
       throw CLI::ValidationError("give something to compare: --input or --simplemap");

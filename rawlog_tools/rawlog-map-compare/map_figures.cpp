@@ -61,12 +61,13 @@ bool FilledBox::holds(const Eigen::Vector3d& point_in_world) const {
   return ((T_box_world * point_in_world).array().abs() < half_size.array()).all();
 }
 
-Reference make_reference(const std::string& path, const std::optional<Truth>& truth,
+Reference make_reference(const LogFile& log, const std::optional<Truth>& truth,
                          const MapOptions& options) {
-  Reference reference{truth ? truth->T_world_vehicle : trajectory_of(path),
+  Reference reference{truth ? truth->T_world_vehicle : trajectory_of(log),
                       VoxelSet(options.voxel_m),
-                      truth ? boxes_of_all_times(*truth) : std::vector<FilledBox>()};
-  for_each_scan(path, [&](const LidarScan& scan) {
+                      truth ? boxes_of_all_times(*truth) : std::vector<FilledBox>(),
+                      {}};
+  reference.warnings = for_each_scan(log, [&](const LidarScan& scan) {
     const auto moving = truth ? boxes_at(*truth, scan.stamp) : std::vector<FilledBox>();
     for_each_point(scan, reference.T_world_vehicle, options.max_range_m,
                    [&](const Eigen::Vector3d& point) {
@@ -76,11 +77,10 @@ Reference make_reference(const std::string& path, const std::optional<Truth>& tr
   return reference;
 }
 
-MapFigures compare_map(const std::string& path, const Reference& reference,
-                       const MapOptions& options) {
+MapFigures compare_map(const LogFile& log, const Reference& reference, const MapOptions& options) {
   MapFigures figures;
   VoxelSet map(options.voxel_m);
-  for_each_scan(path, [&](const LidarScan& scan) {
+  figures.warnings = for_each_scan(log, [&](const LidarScan& scan) {
     ++(is_virtual(scan.label) ? figures.num_virtual : figures.num_real);
     for_each_point(scan, reference.T_world_vehicle, options.max_range_m,
                    [&](const Eigen::Vector3d& point) { map.insert(point); });

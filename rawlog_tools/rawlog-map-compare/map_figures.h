@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "lidar_upsampling/ego/trajectory.h"
+#include "lidar_upsampling/io/rawlog_stream.h"
 #include "rawlog-evaluate/truth.h"
 #include "voxel_set.h"
 
@@ -29,14 +30,15 @@ struct FilledBox {
 /// What the maps are judged by.
 struct Reference {
   Trajectory T_world_vehicle;
-  VoxelSet at_rest;              ///< where the reference's scans saw the world at rest
-  std::vector<FilledBox> swept;  ///< by the moving objects of the truth, at all its stamps
+  VoxelSet at_rest;                   ///< where the reference's scans saw the world at rest
+  std::vector<FilledBox> swept;       ///< by the moving objects of the truth, at all its stamps
+  std::vector<std::string> warnings;  ///< of its log, as for_each_scan()
 };
 
 /// @brief The world at rest as all scans of a log show it, along the log's own way.
 /// @param truth none: nothing is known to move, so all of the log counts as at rest.
 /// @throw std::runtime_error as trajectory_of() and for_each_scan().
-[[nodiscard]] Reference make_reference(const std::string& path, const std::optional<Truth>& truth,
+[[nodiscard]] Reference make_reference(const LogFile& log, const std::optional<Truth>& truth,
                                        const MapOptions& options);
 
 /// Of the map that a log's scans make at the reference's poses. Shares are of voxels.
@@ -46,10 +48,11 @@ struct MapFigures {
   double coverage = 0;         ///< share of the reference's that are occupied in the map
   std::size_t num_ghosts = 0;  ///< where there have been moving objects only
   std::size_t num_others = 0;  ///< farther than a voxel from any of the reference's, and no ghosts
+  std::vector<std::string> warnings;  ///< of its log, as for_each_scan()
 };
 
 /// @throw std::runtime_error as for_each_scan().
-[[nodiscard]] MapFigures compare_map(const std::string& path, const Reference& reference,
+[[nodiscard]] MapFigures compare_map(const LogFile& log, const Reference& reference,
                                      const MapOptions& options);
 
 }  // namespace lidar_upsampling::maps

@@ -6,6 +6,7 @@
 
 #include <cmath>
 
+#include "end_to_end/bad_observations.h"
 #include "plugin/live_run.h"
 #include "plugin/observed.h"
 
@@ -139,6 +140,19 @@ TEST_F(PlayedLog, with_a_pose_file_that_does_not_fit_does_not_start) {
   } catch (const std::exception& error) {
     EXPECT_TRUE(contains(error.what(), "poses are of another time")) << error.what();
   }
+}
+
+TEST_F(PlayedLog, with_bad_observations_of_all_kinds_is_passed_on_whole_and_densified) {
+  write_hand_made(folder_ / "good.rawlog");
+  std::vector<RawlogEntry> all = read_log(folder_ / "good.rawlog");
+  for (const BadObservation& bad : bad_observations())
+    if (!bad.spoil || bad.label == "POSE") all = spoilt(all, bad);
+  write_entries(folder_ / "in.rawlog", all);
+  play();
+  const auto real = without_label(all_, "LIDAR_VIRTUAL");
+  ASSERT_EQ(real.size(), all.size());
+  for (std::size_t i = 0; i < real.size(); ++i) EXPECT_EQ(real[i].bytes, all[i].bytes) << i;
+  EXPECT_EQ(all_.size() - real.size(), 6U);
 }
 
 }  // namespace

@@ -31,9 +31,7 @@ Course course_of(const Eigen::Vector3d& velocity, const Eigen::Vector3d& acceler
 }
 
 void check(const GnssSample& sample) {
-  const bool sane = std::abs(sample.latitude_deg) <= 90 && std::abs(sample.longitude_deg) <= 540 &&
-                    std::isfinite(sample.height_m) && sample.antenna_in_vehicle.allFinite();
-  if (!sane) {
+  if (!is_on_globe(sample)) {
     throw std::invalid_argument("a GNSS fix lies off the globe: latitude " +
                                 std::to_string(sample.latitude_deg) + ", longitude " +
                                 std::to_string(sample.longitude_deg) + ", height " +

@@ -2,6 +2,7 @@
 // Copyright (c) 2026, the lidar_upsampling authors
 #pragma once
 
+#include <cmath>
 #include <map>
 #include <memory>
 #include <optional>
@@ -22,6 +23,12 @@ struct GnssSample {
   double height_m = 0;
   Eigen::Vector3d antenna_in_vehicle = Eigen::Vector3d::Zero();
 };
+
+/// Whether its numbers are finite, and a place on Earth.
+[[nodiscard]] inline bool is_on_globe(const GnssSample& sample) {
+  return std::abs(sample.latitude_deg) <= 90 && std::abs(sample.longitude_deg) <= 540 &&
+         std::isfinite(sample.height_m) && sample.antenna_in_vehicle.allFinite();
+}
 
 /// @brief The vehicle's motion from position fixes alone, in local east-north-up metres about the
 /// first.

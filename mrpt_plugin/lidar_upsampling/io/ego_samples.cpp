@@ -50,6 +50,16 @@ Stamp gnss_stamp(const mrpt::obs::CObservationGPS& observation) {
   return agree ? observation.timestamp : received;
 }
 
+// Of poses and odometry.
+std::optional<PoseSample> pose_of(const mrpt::obs::CObservation& observation) {
+  if (const auto* const pose = dynamic_cast<const mrpt::obs::CObservationRobotPose*>(&observation))
+    return PoseSample{pose->timestamp,
+                      from_mrpt(pose->pose.mean) * from_mrpt(pose->sensorPose).inverse()};
+  if (const auto* const wheels = dynamic_cast<const mrpt::obs::CObservationOdometry*>(&observation))
+    return PoseSample{wheels->timestamp, from_mrpt(mrpt::poses::CPose3D(wheels->odometry))};
+  return {};
+}
+
 }  // namespace
 
 std::optional<GnssSample> gnss_sample(const mrpt::obs::CObservationGPS& observation) {
@@ -73,19 +83,27 @@ void ActionOdometry::add(const mrpt::obs::CActionCollection& actions) {
     step = from_mrpt(mrpt::poses::CPose3D(planar->poseChange->getMeanVal()));
   else if (const auto spatial = actions.getActionByClass<mrpt::obs::CActionRobotMovement3D>())
     step = from_mrpt(spatial->poseChange.mean);
-  if (step) T_world_vehicle_ = T_world_vehicle_.value_or(Pose::Identity()) * *step;
+  if (step && step->matrix().allFinite())
+    T_world_vehicle_ = T_world_vehicle_.value_or(Pose::Identity()) * *step;
+}
+
+std::optional<std::string> ego_defect_of(const mrpt::obs::CObservation& observation) {
+  const auto sample = pose_of(observation);
+  if (sample && !sample->T_world_vehicle.matrix().allFinite())
+    return "its pose has a number that is not finite";
+  const auto* const gps = dynamic_cast<const mrpt::obs::CObservationGPS*>(&observation);
+  const auto fix = gps != nullptr ? gnss_sample(*gps) : std::nullopt;
+  if (fix && !is_on_globe(*fix)) return "its fix lies off the globe, or is not finite";
+  if ((sample || fix) && observation.timestamp == INVALID_TIMESTAMP) return "it has no time stamp";
+  return {};
 }
 
 void EgoSamples::add_observation(const mrpt::obs::CObservation& observation) {
+  if (ego_defect_of(observation)) return;
   const std::string& label = observation.sensorLabel;
-  if (const auto* const pose =
-          dynamic_cast<const mrpt::obs::CObservationRobotPose*>(&observation)) {
-    poses_[label].push_back(
-        {pose->timestamp, from_mrpt(pose->pose.mean) * from_mrpt(pose->sensorPose).inverse()});
-  } else if (const auto* const wheels =
-                 dynamic_cast<const mrpt::obs::CObservationOdometry*>(&observation)) {
-    odometry_[label].push_back(
-        {wheels->timestamp, from_mrpt(mrpt::poses::CPose3D(wheels->odometry))});
+  if (const auto pose = pose_of(observation)) {
+    const bool is_pose = IS_DERIVED(observation, mrpt::obs::CObservationRobotPose);
+    (is_pose ? poses_ : odometry_)[label].push_back(*pose);
   } else if (const auto* const gps =
                  dynamic_cast<const mrpt::obs::CObservationGPS*>(&observation)) {
     if (const auto sample = gnss_sample(*gps)) gnss_[label].push_back(*sample);

@@ -21,10 +21,14 @@ namespace lidar_upsampling {
 /// sensors' are.
 [[nodiscard]] std::optional<GnssSample> gnss_sample(const mrpt::obs::CObservationGPS& observation);
 
+/// @brief What is wrong with what an observation tells of the vehicle's motion; none: nothing, or
+/// it tells nothing.
+[[nodiscard]] std::optional<std::string> ego_defect_of(const mrpt::obs::CObservation& observation);
+
 /// @brief Sums up the vehicle's movements that precede a log's frames.
 class ActionOdometry {
  public:
-  /// Adds the increment of the best movement estimation.
+  /// Adds the increment of the best movement estimation, if that is finite.
   void add(const mrpt::obs::CActionCollection& actions);
   /// In a world where the first movement began; none before that.
   [[nodiscard]] const std::optional<Pose>& T_world_vehicle() const { return T_world_vehicle_; }
@@ -40,7 +44,8 @@ struct EgoNews {
 };
 
 /// @brief Gathers what a log tells of the vehicle's motion. Streams of different labels may use
-/// different worlds, so they are kept apart, and the one with the most samples is given out.
+/// different worlds, so they are kept apart, and the one with the most samples is given out. What
+/// has an ego_defect_of() is passed over.
 class EgoSamples {
  public:
   void add_observation(const mrpt::obs::CObservation& observation);
