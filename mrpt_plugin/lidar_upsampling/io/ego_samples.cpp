@@ -83,8 +83,8 @@ void ActionOdometry::add(const mrpt::obs::CActionCollection& actions) {
     step = from_mrpt(mrpt::poses::CPose3D(planar->poseChange->getMeanVal()));
   else if (const auto spatial = actions.getActionByClass<mrpt::obs::CActionRobotMovement3D>())
     step = from_mrpt(spatial->poseChange.mean);
-  if (step && step->matrix().allFinite())
-    T_world_vehicle_ = T_world_vehicle_.value_or(Pose::Identity()) * *step;
+  if (step && !step->matrix().allFinite()) step = Pose::Identity();
+  if (step) T_world_vehicle_ = T_world_vehicle_.value_or(Pose::Identity()) * *step;
 }
 
 std::optional<std::string> ego_defect_of(const mrpt::obs::CObservation& observation) {
