@@ -13,6 +13,7 @@
 #include <string>
 #include <utility>
 
+#include "lidar_upsampling/io/temporary_names.h"
 #include "lidar_upsampling/text.h"
 
 namespace lidar_upsampling {
@@ -21,7 +22,8 @@ constexpr int kDone = 0;
 constexpr int kFailed = 1;
 constexpr int kWrongUsage = 2;
 
-/// @brief What every tool's main does: parses, works, and says in one line on stderr what failed.
+/// @brief What every tool's main does: parses, works, and says in one line on stderr what failed; a
+/// signal that ends it leaves nothing half done.
 /// @return the exit status: 0 done, 1 failed, 2 wrong usage.
 inline int run_tool(CLI::App& app, int argc, char** argv, const std::function<void()>& work) {
   app.set_version_flag("--version", app.get_name() + " " + LIDAR_UPSAMPLING_VERSION);
@@ -30,6 +32,7 @@ inline int run_tool(CLI::App& app, int argc, char** argv, const std::function<vo
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? kDone : kWrongUsage;
   }
+  remove_temporaries_on_signals();
   try {
     work();
     return kDone;

@@ -9,9 +9,7 @@
 #include <filesystem>
 #include <map>
 #include <memory>
-#include <opencv2/imgcodecs.hpp>
 #include <set>
-#include <stdexcept>
 
 #include "drawing.h"
 #include "lidar_upsampling/front_end/pose_input.h"
@@ -21,6 +19,7 @@
 #include "lidar_upsampling/registration/scan_registration.h"
 #include "lidar_upsampling/scan/sweep.h"
 #include "lidar_upsampling/vision/projection.h"
+#include "pictures.h"
 #include "streams.h"
 
 namespace lidar_upsampling {
@@ -181,12 +180,11 @@ class Checker {
               score_time_offsets({scan, image, placed.lidar_step, placed.before.get()}))
         camera.scores.push_back(*scores);
     if (job_.pictures.empty() || image.stamp != camera.middle) return;
-    check.overlay =
-        (std::filesystem::path(job_.pictures) / ("overlay_" + image.camera.label + ".png"))
-            .string();
+    check.overlay = (std::filesystem::path(job_.pictures) /
+                     ("overlay_" + names_.of(image.camera.label) + ".png"))
+                        .string();
     std::filesystem::create_directories(job_.pictures);
-    if (!cv::imwrite(check.overlay, overlay(then, image)))
-      throw std::runtime_error(check.overlay + ": cannot be written");
+    write_picture(check.overlay, overlay(then, image));
   }
 
   // The ego-motion that the log holds, else that since the scan before, going on.
@@ -226,6 +224,7 @@ class Checker {
   std::shared_ptr<const LidarScan> previous_;
   Twist rate_ = Twist::Zero();
   std::map<std::string, CameraUnderway> cameras_;
+  FileNames names_;
 };
 
 }  // namespace

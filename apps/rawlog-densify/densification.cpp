@@ -24,12 +24,13 @@ Densification::Densification(const DensifyJob& job, const LogIndex& index, Densi
     : job_(job),
       report_(report),
       upsampler_(job.config),
-      usable_(job.rig, job.config.sweep,
-              [&report](const std::string& text) { report.warn(text); }) {
+      usable_(job.rig, job.config.sweep, [&report](const std::string& text) { report.warn(text); }),
+      stamps_(report) {
   const StreamSelection streams = select_streams(index, job.config, labels_of_calibrated(job.rig));
   lidar_label_ = streams.lidar->label;
   take_streams(streams);
   num_streams_ = index.streams.size();
+  for (const StreamInfo& stream : index.streams) labels_.insert(stream.label);
   num_stamps_ = streams.lidar->stamps.size();
   upsampler_.expect_scans(streams.lidar->stamps);
   take_ego({index.poses, index.odometry, index.gnss});
@@ -82,9 +83,16 @@ void Densification::learn(LogIndexer& indexer) {
 
 std::optional<VirtualScan> Densification::feed(const CObservation::Ptr& observation) {
   if (!observation) return {};
-  if (observation->sensorLabel == lidar_label_ && is_lidar_scan(*observation))
+  labels_.insert(observation->sensorLabel);
+  if (observation->sensorLabel == lidar_label_ && is_lidar_scan(*observation)) {
+    static_cast<void>(stamps_.note(*observation));
     return noted(feed_scan(observation));
-  if (camera_labels_.count(observation->sensorLabel) > 0) return noted(feed_image(*observation));
+  }
+  if (camera_labels_.count(observation->sensorLabel) > 0) {
+    if (stamps_.note(*observation)) return noted(feed_image(*observation));
+    report_.warn("'" + observation->sensorLabel +
+                 "': an image that is there twice was left out the second time");
+  }
   usable_.ego(*observation);
   return {};
 }
@@ -92,6 +100,7 @@ std::optional<VirtualScan> Densification::feed(const CObservation::Ptr& observat
 std::optional<VirtualScan> Densification::flush() { return noted(upsampler_.flush()); }
 
 void Densification::finish() {
+  warn_of_unused(job_, labels_, camera_labels_, report_);
   if (film_ && !film_->finish()) report_.warn("fewer than two virtual scans: no film is made");
 }
 
@@ -142,7 +151,7 @@ std::optional<VirtualScan> Densification::feed_image(const CObservation& observa
 
 std::optional<VirtualScan> Densification::noted(std::optional<VirtualScan> scan) {
   if (!scan) return scan;
-  report_.add(*scan, job_.keep_rows);
+  report_.add(*scan);
   if (pictures_) pictures_->virtual_scan(*scan);
   if (film_) film_->virtual_scan(*scan);
   return scan;

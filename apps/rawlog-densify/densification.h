@@ -16,6 +16,7 @@
 #include "lidar_upsampling/front_end/usable_observations.h"
 #include "lidar_upsampling/io/log_index.h"
 #include "lidar_upsampling/upsampler.h"
+#include "odd_inputs.h"
 #include "pictures.h"
 #include "scans_ahead.h"
 #include "streams.h"
@@ -52,7 +53,9 @@ class Densification {
 
   /// @return the virtual scan that still waits for other cameras, if any.
   [[nodiscard]] std::optional<VirtualScan> flush();
-  /// The film, if one is asked for, appears. @throw std::runtime_error it cannot.
+
+  /// Warns of what is odd about the settings, now that the log has gone by.
+  /// A film, if one is asked for, appears. @throw std::runtime_error it cannot.
   void finish();
 
   /// The last real scan as the log held it; null before the first.
@@ -76,6 +79,8 @@ class Densification {
   bool learns_ = false;                           ///< of the log while it goes by
   std::size_t num_streams_ = 0, num_stamps_ = 0;  ///< of the log, of the LiDAR: that are known
   std::set<std::string> camera_labels_;
+  std::set<std::string> labels_;  ///< that there are
+  StampWatch stamps_;
   std::optional<Pictures> pictures_;
   std::optional<Film> film_;
   std::optional<ScansAhead> ahead_;  ///< with mode = offline

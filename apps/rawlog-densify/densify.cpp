@@ -13,6 +13,7 @@
 #include "lidar_upsampling/io/rawlog_stream.h"
 #include "lidar_upsampling/io/sensory_frame.h"
 #include "log_input.h"
+#include "odd_inputs.h"
 
 namespace lidar_upsampling {
 namespace {
@@ -83,18 +84,15 @@ RawlogEntry densified_frame(const RawlogEntry& frame, Insertion& run) {
 /// The output log; the time that it takes goes into the report.
 class Output {
  public:
-  Output(const DensifyJob& job, DensifyReport& report)
-      : report_(report), writer_(job.output, job.overwrite, job.config.compression) {}
+  Output(const DensifyJob& job, OutputFile& file, DensifyReport& report)
+      : report_(report), writer_(file, job.config.compression) {}
 
   template <typename Object>
   void write(const Object& object) {
     const Timed writing(report_, "writing");
     writer_.write(object);
   }
-  void commit() {
-    const Timed writing(report_, "writing");
-    writer_.commit();
-  }
+  void finish() { writer_.finish(); }
 
  private:
   DensifyReport& report_;
@@ -146,12 +144,16 @@ void warm_up(Densification& run, LogInput& input, const LogPart& part) {
   static_cast<void>(run.flush());
 }
 
-PartReport attempt(const DensifyJob& job, const LogPart& part, bool know_all,
+std::shared_ptr<ReportRows> rows_for(const DensifyJob& job) {
+  return job.rows_beside.empty() ? nullptr : std::make_shared<ReportRows>(job.rows_beside);
+}
+
+PartReport attempt(const DensifyJob& job, const LogPart& part, OutputFile& file, bool know_all,
                    const std::function<void(double)>& progress) {
   constexpr double kIndexShare = 0.1;  // of the whole work, where there is need of one
   PartReport done{report_of(job), {}};
   DensifyReport& report = done.report;
-  Output output(job, report);
+  Output output(job, file, report);
   LogInput input(job, report);
   double told = 0;
   const auto tell = [&](double share) {
@@ -169,29 +171,37 @@ PartReport attempt(const DensifyJob& job, const LogPart& part, bool know_all,
     warm_up(run.run(), input, part);
     done.warm_up = std::exchange(report, report.begun_anew());
   }
+  report.rows = rows_for(job);
   for (; const auto entry = input.next(run.run(), part.to); ++report.num_objects_in) {
     densify_entry(*entry, run, output);
     tell(before + (1 - before) * input.progress());
   }
   for (const auto& observation : run.flush()) output.write(*observation);
-  run.run().finish();
-  output.commit();
+  if (!part.to) run.run().finish();
+  output.finish();
   return done;
 }
 
 }  // namespace
 
-PartReport densify_part(const DensifyJob& job, const LogPart& part,
+PartReport densify_part(const DensifyJob& job, const LogPart& part, OutputFile& output,
                         const std::function<void(double)>& progress) {
   try {
-    return attempt(job, part, false, progress);
+    return attempt(job, part, output, false, progress);
   } catch (const EgoComesLate&) {
-    return attempt(job, part, true, progress);
+    output.clear();
+    return attempt(job, part, output, true, progress);
   }
 }
 
 DensifyReport densify(const DensifyJob& job, const std::function<void(double)>& progress) {
-  DensifyReport report = densify_part(job, {}, progress).report;
+  OutputFile output(job.output, {job.overwrite});
+  DensifyReport report = densify_part(job, {}, output, progress).report;
+  {
+    const Timed writing(report, "writing");
+    output.commit();
+  }
+  warn_of_no_virtual_scan(report);
   link_external_images(job, report);
   return report;
 }

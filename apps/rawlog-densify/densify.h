@@ -8,6 +8,7 @@
 
 #include "lidar_upsampling/config.h"
 #include "lidar_upsampling/io/log_index.h"
+#include "lidar_upsampling/io/output_file.h"
 #include "lidar_upsampling/io/rig_overrides.h"
 #include "report.h"
 
@@ -19,7 +20,8 @@ struct DensifyJob {
   std::string film;      ///< empty: none
   bool overwrite = false;
   bool accept_truncated = false;  ///< keep what is readable of a broken log
-  bool keep_rows = false;         ///< a report row per object and image
+  /// A report row per object and image is kept, in a file on one disk with this; empty: none.
+  std::string rows_beside;
   Config config;
   RigOverrides rig;
 };
@@ -48,8 +50,10 @@ struct PartReport {
 void link_external_images(const DensifyJob& job, DensifyReport& report);
 
 /// @brief The same of a part. External images are not linked.
+/// @param output gets all of it, and is the caller's to commit.
 /// @throw std::runtime_error as densify()
 [[nodiscard]] PartReport densify_part(const DensifyJob& job, const LogPart& part,
+                                      OutputFile& output,
                                       const std::function<void(double)>& progress);
 
 }  // namespace lidar_upsampling

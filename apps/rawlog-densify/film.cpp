@@ -2,15 +2,16 @@
 // Copyright (c) 2026, the lidar_upsampling authors
 #include "film.h"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <opencv2/imgproc.hpp>
 #include <stdexcept>
 
 #include "drawing.h"
+#include "lidar_upsampling/io/output_file.h"
 
 namespace lidar_upsampling {
 namespace {
@@ -41,18 +42,10 @@ int code_for(const std::string& path) {
 }  // namespace
 
 Film::Film(std::string path) : path_(std::move(path)) {
-  const fs::path whole(path_);
-  const std::string ending = whole.extension();
+  const std::string ending = fs::path(path_).extension();
   if (ending != ".mp4" && ending != ".avi" && ending != ".mkv")
     throw std::runtime_error(path_ + ": a film ends in .mp4, .avi or .mkv");
-  unfinished_ =
-      whole.parent_path() / ("." + whole.stem().string() + "." + std::to_string(getpid()) + ending);
-}
-
-Film::~Film() {
-  writer_.release();
-  std::error_code none;
-  fs::remove(unfinished_, none);
+  unfinished_ = std::make_unique<TemporaryName>(path_, ending);
 }
 
 void Film::real_scan(const LidarScan& scan) {
@@ -112,7 +105,7 @@ void Film::write(const Frame& frame) {
   if (!writer_.isOpened()) {
     const double interval_s = seconds_between(waiting_->stamp, frame.stamp);
     const double rate = std::clamp(1 / (kSlower * std::max(1e-3, interval_s)), 1., 60.);
-    if (!writer_.open(unfinished_, code_for(path_), rate, frame.picture.size()))
+    if (!writer_.open(unfinished_->path(), code_for(path_), rate, frame.picture.size()))
       throw std::runtime_error(path_ + ": OpenCV cannot write a film of this kind; try .avi");
     writer_.write(waiting_->picture);
   }
@@ -122,7 +115,8 @@ void Film::write(const Frame& frame) {
 bool Film::finish() {
   if (!writer_.isOpened()) return false;
   writer_.release();
-  fs::rename(unfinished_, path_);
+  std::ifstream file(unfinished_->path(), std::ios::binary);
+  write_file(path_, {std::istreambuf_iterator<char>(file), {}});
   return true;
 }
 

@@ -3,11 +3,13 @@
 #pragma once
 
 #include <deque>
+#include <memory>
 #include <opencv2/videoio.hpp>
 #include <optional>
 #include <string>
 
 #include "bird_view.h"
+#include "lidar_upsampling/io/temporary_names.h"
 #include "lidar_upsampling/types.h"
 
 namespace lidar_upsampling {
@@ -19,10 +21,6 @@ class Film {
   /// @param path .mp4, .avi or .mkv; it appears when the film is finished.
   /// @throw std::runtime_error another ending.
   explicit Film(std::string path);
-  /// What is not finished leaves nothing.
-  ~Film();
-  Film(const Film&) = delete;
-  Film& operator=(const Film&) = delete;
 
   void real_scan(const LidarScan& scan);
   /// Of several cameras, the first is shown.
@@ -30,6 +28,7 @@ class Film {
   /// @throw std::runtime_error the film cannot be written.
   void virtual_scan(const VirtualScan& scan);
   /// @return false, and there is no film, if there was nothing to show.
+  /// @throw std::runtime_error as OutputFile
   [[nodiscard]] bool finish();
 
  private:
@@ -41,7 +40,8 @@ class Film {
   void write(const Frame& frame);
   [[nodiscard]] const CameraImage* image_at(Stamp stamp) const;
 
-  std::string path_, unfinished_;
+  std::string path_;
+  std::unique_ptr<TemporaryName> unfinished_;
   cv::VideoWriter writer_;
   std::optional<Frame> waiting_;  ///< the first, until the second tells the rate
   std::deque<CameraImage> images_;

@@ -4,16 +4,17 @@
 
 #include <mrpt/config/CConfigFileMemory.h>
 
-#include <fstream>
-#include <sstream>
 #include <stdexcept>
+
+#include "lidar_upsampling/ini_text.h"
 
 namespace lidar_upsampling {
 namespace {
 
 // Sections of the INI that belong to us; a file may hold other programs' sections too, but of its
 // keys one that is given by --set must be known.
-void set_key(mrpt::config::CConfigFileMemory& config, const std::string& assignment) {
+void set_key(mrpt::config::CConfigFileMemory& config, IniText& file,
+             const std::string& assignment) {
   const auto equals = assignment.find('=');
   if (equals == std::string::npos || equals == 0)
     throw std::runtime_error("--set " + assignment +
@@ -23,14 +24,13 @@ void set_key(mrpt::config::CConfigFileMemory& config, const std::string& assignm
   const std::string section = dot == std::string::npos ? kMainSection : name.substr(0, dot);
   const std::string key = dot == std::string::npos ? name : name.substr(dot + 1);
   config.write(section, key, assignment.substr(equals + 1));
+  file.line_of.erase("[" + section + "] " + key);  // what is wrong with it now is not the file's
 }
 
-std::string read_file(const std::string& path) {
-  std::ifstream file(path);
-  std::ostringstream text;
-  text << file.rdbuf();
-  if (!file) throw std::runtime_error(path + ": cannot read this settings file");
-  return text.str();
+void load(DensifyJob& job, const mrpt::config::CConfigFileMemory& config) {
+  check_sections(config);
+  job.config.loadFromConfigFile(config, kMainSection);
+  job.rig = load_rig_overrides(config);
 }
 
 }  // namespace
@@ -38,15 +38,21 @@ std::string read_file(const std::string& path) {
 void load_settings(DensifyJob& job, const std::string& path, const std::vector<std::string>& sets,
                    const std::string& detections) {
   mrpt::config::CConfigFileMemory config;
-  if (!path.empty()) config.setContent(read_file(path));
-  for (const std::string& assignment : sets) set_key(config, assignment);
+  IniText file;
+  if (!path.empty()) {
+    file = read_ini(path);
+    config.setContent(file.text);
+  }
+  for (const std::string& assignment : sets) set_key(config, file, assignment);
   if (!detections.empty()) {
     config.write("detector", "type", std::string("csv"));
     config.write("detector", "boxes", detections);
   }
-  check_sections(config);
-  job.config.loadFromConfigFile(config, kMainSection);
-  job.rig = load_rig_overrides(config);
+  try {
+    load(job, config);
+  } catch (const std::invalid_argument& error) {
+    throw std::invalid_argument(file.located(error.what()));
+  }
 }
 
 }  // namespace lidar_upsampling

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the lidar_upsampling authors
-#include <algorithm>
-#include <iterator>
 #include <map>
 #include <utility>
 
@@ -10,15 +8,15 @@
 namespace lidar_upsampling {
 namespace {
 
-using Rows = std::vector<DensifyReport::Row>;
+using Rows = std::vector<ReportRow>;
 
-Eigen::Vector3d position_of(const DensifyReport::Row& row) {
+Eigen::Vector3d position_of(const ReportRow& row) {
   return row.object.T_lidar_t_lidar_k * row.object.centroid_lidar_k;
 }
 
-const DensifyReport::Row* nearest_row(const Rows& rows, Stamp stamp, const DensifyReport::Row& to) {
-  const DensifyReport::Row* found = nullptr;
-  for (const DensifyReport::Row& row : rows) {
+const ReportRow* nearest_row(const Rows& rows, Stamp stamp, const ReportRow& to) {
+  const ReportRow* found = nullptr;
+  for (const ReportRow& row : rows) {
     if (row.stamp != stamp) continue;
     if (found == nullptr || (position_of(row) - position_of(to)).norm() <
                                 (position_of(*found) - position_of(to)).norm())
@@ -35,9 +33,9 @@ class Numbers {
   // Both have seen the last instant before the part: what lies at one place then is one.
   void match(const Rows& before, const Rows& warm_up, Stamp stamp) {
     constexpr double kSame_m = 0.5;
-    for (const DensifyReport::Row& row : warm_up) {
+    for (const ReportRow& row : warm_up) {
       if (row.stamp != stamp) continue;
-      const DensifyReport::Row* const there = nearest_row(before, stamp, row);
+      const ReportRow* const there = nearest_row(before, stamp, row);
       if (there == nullptr || (position_of(*there) - position_of(row)).norm() > kSame_m ||
           nearest_row(warm_up, stamp, *there) != &row)
         continue;
@@ -63,39 +61,51 @@ void add_counts(DensifyReport& all, const DensifyReport& part) {
   all.num_virtual_scans += part.num_virtual_scans;
   all.num_extrapolated += part.num_extrapolated;
   for (const auto& [what, count] : part.resampling) all.resampling[what] += count;
-  for (const auto& [what, count] : part.warnings) all.warnings[what] += count;
+  for (const auto& [kind, warning] : part.warnings) {
+    DensifyReport::Warning& joined = all.warnings[kind];
+    if (joined.count == 0) joined.first = warning.first;
+    joined.count += warning.count;
+  }
   for (const auto& [what, count] : part.object_status) all.object_status[what] += count;
   for (const std::string& stage : part.stage_order) {
     if (all.stage_ms.find(stage) == all.stage_ms.end()) all.stage_order.push_back(stage);
-    const std::vector<double>& times = part.stage_ms.at(stage);
-    std::copy(times.begin(), times.end(), std::back_inserter(all.stage_ms[stage]));
+    all.stage_ms[stage].add(part.stage_ms.at(stage));
   }
   if (all.carrier.empty()) all.carrier = part.carrier;
 }
 
 }  // namespace
 
-DensifyReport joined(std::vector<PartReport> parts) {
+DensifyReport joined(std::vector<PartReport> parts, std::shared_ptr<ReportRows> rows) {
   DensifyReport all = parts.front().report.begun_anew();
+  all.rows = std::move(rows);
   int next_track = 0;
   for (PartReport& part : parts) {
     Numbers numbers(next_track);
     Pose T_rest_part = Pose::Identity();
     if (part.warm_up.num_virtual_scans > 0 && part.warm_up.last_stamp == all.last_stamp) {
-      numbers.match(all.rows, part.warm_up.rows, all.last_stamp);
+      numbers.match(all.last_rows, part.warm_up.last_rows, all.last_stamp);
       T_rest_part = all.T_rest_lidar_last * part.warm_up.T_rest_lidar_last.inverse();
     }
-    add_counts(all, part.report);
-    for (DensifyReport::Row& row : part.report.rows) {
+    const auto renumber = [&](ReportRow& row) {
       row.object.track_id = numbers.of(row.object.track_id);
       row.T_rest_lidar = T_rest_part * row.T_rest_lidar;
-      all.rows.push_back(std::move(row));
+    };
+    add_counts(all, part.report);
+    if (all.rows && part.report.rows) {
+      part.report.rows->for_each(
+          [&](ReportRow& row) {
+            renumber(row);
+            all.rows->add(row);
+          },
+          [&](Stamp stamp, const OtherCluster& cluster) { all.rows->add(stamp, cluster); });
+      part.report.rows.reset();
     }
     for (const int track : part.report.tracks) all.tracks.insert(numbers.of(track));
     for (const int track : part.report.moving_tracks) all.moving_tracks.insert(numbers.of(track));
-    std::move(part.report.other_clusters.begin(), part.report.other_clusters.end(),
-              std::back_inserter(all.other_clusters));
     if (part.report.num_virtual_scans == 0) continue;
+    all.last_rows = std::move(part.report.last_rows);
+    for (ReportRow& row : all.last_rows) renumber(row);
     all.last_stamp = part.report.last_stamp;
     all.T_rest_lidar_last = T_rest_part * part.report.T_rest_lidar_last;
   }

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the lidar_upsampling authors
-#include <fstream>
 #include <iostream>
-#include <nlohmann/json.hpp>
-#include <stdexcept>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,19 +9,14 @@
 #include "common/tool_main.h"
 #include "densify.h"
 #include "job_settings.h"
+#include "lidar_upsampling/io/file_places.h"
+#include "lidar_upsampling/io/text_file.h"
 #include "many_logs.h"
 #include "parts.h"
 
 namespace {
 
 using namespace lidar_upsampling;  // NOLINT(google-build-using-namespace)
-
-void write_report(const DensifyReport& report, const std::string& path) {
-  std::ofstream file(path);
-  file << to_json(report).dump(1, ' ', false, nlohmann::json::error_handler_t::replace) << '\n';
-  file.flush();
-  if (!file) throw std::runtime_error(path + ": the report cannot be written");
-}
 
 LogCheck checked(const DensifyJob& job) {
   Progress progress("checking");
@@ -91,10 +84,16 @@ void add_ways_to_work(CLI::App& app, Request& request) {
 // @return its summary.
 std::string densify_one(DensifyJob job, const std::string& report_path, const PartOptions& parts,
                         const std::function<void(double)>& progress) {
-  job.keep_rows = !report_path.empty();
+  // Whether it can be written is told before the work.
+  std::optional<TextFile> file;
+  if (!report_path.empty()) file.emplace(report_path, OutputOptions{true, true});
+  job.rows_beside = report_path;
   const DensifyReport report =
       parts.most > 1 ? densify_in_parts(job, parts, progress) : densify(job, progress);
-  if (!report_path.empty()) write_report(report, report_path);
+  if (file) {
+    write_json(report, file->stream());
+    file->commit();
+  }
   return summary(report);
 }
 
@@ -105,6 +104,16 @@ void densify_several(const Request& request) {
       jobs, static_cast<std::size_t>(request.num_jobs),
       [](const LogJob& one) { return densify_one(one.job, one.report, {}, nullptr); },
       std::ref(progress));
+}
+
+void check_files_of(const Request& request) {
+  check_files({{"--input", request.inputs.front()},
+               {"--config", request.config},
+               {"--poses", request.poses},
+               {"--detections", request.detections}},
+              {{"--output", request.job.output},
+               {"--report", request.report},
+               {"--film", request.job.film}});
 }
 
 void work_on(Request& request) {
@@ -123,6 +132,7 @@ void work_on(Request& request) {
     std::cout << to_text(checked(request.job));
     return;
   }
+  check_files_of(request);
   const PartOptions parts{static_cast<std::size_t>(request.num_jobs), request.warm_up_s};
   std::string text;
   {

@@ -9,6 +9,7 @@
 #include <system_error>
 #include <utility>
 
+#include "lidar_upsampling/io/file_places.h"
 #include "processes.h"
 
 namespace fs = std::filesystem;
@@ -42,6 +43,9 @@ std::vector<LogJob> jobs_of(const std::vector<std::string>& inputs, const Densif
   if (!report.empty()) fs::create_directories(report);
   for (const std::string& folder : {job.pictures, job.film})
     if (!folder.empty()) fs::create_directories(folder);
+  for (const LogJob& one : jobs)
+    for (const std::string& input : inputs)
+      check_files({{"--input", input}}, {{"--output", one.job.output}, {"--report", one.report}});
   return jobs;
 }
 

@@ -5,67 +5,43 @@
 #include <mrpt/img/CImage.h>
 #include <tbb/info.h>
 #include <tbb/task_arena.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
+#include <deque>
 #include <exception>
-#include <filesystem>
-#include <fstream>
+#include <memory>
 #include <stdexcept>
-#include <string>
-#include <system_error>
 #include <thread>
 #include <utility>
 
 #include "lidar_upsampling/front_end/pose_input.h"
-#include "lidar_upsampling/io/rawlog_stream.h"
+#include "lidar_upsampling/io/file_places.h"
+#include "lidar_upsampling/io/output_file.h"
+#include "odd_inputs.h"
 #include "streams.h"
-
-namespace fs = std::filesystem;
 
 namespace lidar_upsampling {
 namespace {
 
-/// The parts' outputs until they are one.
+/// The parts' outputs until they are one: packed files one after the other are a packed file.
 class PartFiles {
  public:
-  // @param output through symbolic links, so that these are kept
-  PartFiles(const std::string& output, std::size_t count)
-      : output_(fs::exists(output) ? fs::canonical(output).string() : output) {
-    for (std::size_t i = 0; i < count; ++i)
-      paths_.push_back(output_ + ".part-" + std::to_string(getpid()) + "-" + std::to_string(i));
+  PartFiles(const DensifyJob& job, std::size_t count) : output_(job.output, {job.overwrite}) {
+    for (std::size_t i = 1; i < count; ++i) others_.push_back(OutputFile::scratch(job.output));
   }
-  ~PartFiles() {
-    std::error_code ignored;
-    for (const std::string& path : paths_) fs::remove(path, ignored);
+
+  [[nodiscard]] OutputFile& file(std::size_t part) {
+    return part == 0 ? output_ : others_[part - 1];
   }
-  PartFiles(const PartFiles&) = delete;
-  PartFiles& operator=(const PartFiles&) = delete;
 
-  [[nodiscard]] const std::string& path(std::size_t part) const { return paths_[part]; }
-
-  // Packed files one after the other are a packed file.
-  void join(bool overwrite) {
-    std::ofstream all(paths_.front(), std::ios::binary | std::ios::app);
-    for (std::size_t i = 1; i < paths_.size(); ++i) {
-      std::ifstream part(paths_[i], std::ios::binary);
-      all << part.rdbuf();
-      all.flush();
-      if (!all || !part)
-        throw std::runtime_error(output_ +
-                                 ": cannot be written: " + std::generic_category().message(errno));
-      fs::remove(paths_[i]);
-    }
-    all.close();
-    if (!overwrite && fs::exists(output_))
-      throw std::runtime_error(output_ + " exists: pass --overwrite to replace it");
-    fs::rename(paths_.front(), output_);
+  void join() {
+    for (; !others_.empty(); others_.pop_front()) output_.append(others_.front());
+    output_.commit();
   }
 
  private:
-  std::string output_;
-  std::vector<std::string> paths_;
+  OutputFile output_;
+  std::deque<OutputFile> others_;
 };
 
 // Parts begin at real scans, of which each has as many.
@@ -85,20 +61,17 @@ std::vector<LogPart> parts_of(const LogIndex& index, std::vector<Stamp> scans,
 
 // Side by side, each with its share of the cores.
 std::vector<PartReport> densify_side_by_side(const DensifyJob& job,
-                                             const std::vector<LogPart>& parts,
-                                             const PartFiles& files,
+                                             const std::vector<LogPart>& parts, PartFiles& files,
                                              const std::function<void(double)>& progress) {
   const int cores = std::max(1, tbb::info::default_concurrency() / static_cast<int>(parts.size()));
   std::vector<PartReport> reports(parts.size());
   std::vector<std::exception_ptr> errors(parts.size());
   const auto work = [&](std::size_t i) {
     try {
-      DensifyJob own = job;
-      own.output = files.path(i);
-      own.keep_rows = true;  // by which the parts' tracks are told to be the same
       tbb::task_arena(cores).execute([&] {
         // The last part reads the most.
-        reports[i] = densify_part(own, parts[i], i + 1 == parts.size() ? progress : nullptr);
+        reports[i] =
+            densify_part(job, parts[i], files.file(i), i + 1 == parts.size() ? progress : nullptr);
       });
     } catch (...) {
       errors[i] = std::current_exception();
@@ -121,20 +94,18 @@ DensifyReport densify_in_parts(const DensifyJob& job, const PartOptions& options
         "--pictures and --film are drawn from the log's begin to its end: with one input "
         "they need --jobs 1");
   // Whether it can be written is told before the work.
-  static_cast<void>(RawlogWriter(job.output, job.overwrite));
+  static_cast<void>(output_place(job.output, job.overwrite));
   mrpt::img::CImage::DISABLE_JPEG_COMPRESSION(true);  // of the process: not once per writer
   LogIndex index = index_log({job.input, job.accept_truncated});
   take_poses_from_file(job.config, job.rig, index);
   const auto streams = select_streams(index, job.config, labels_of_calibrated(job.rig));
   const std::vector<LogPart> parts = parts_of(index, streams.lidar->stamps, options);
-  PartFiles files(job.output, parts.size());
-  DensifyReport report = joined(densify_side_by_side(job, parts, files, progress));
-  files.join(job.overwrite);
-  report.output = job.output;
-  if (!job.keep_rows) {
-    report.rows.clear();
-    report.other_clusters.clear();
-  }
+  PartFiles files(job, parts.size());
+  std::shared_ptr<ReportRows> rows;
+  if (!job.rows_beside.empty()) rows = std::make_shared<ReportRows>(job.rows_beside);
+  DensifyReport report = joined(densify_side_by_side(job, parts, files, progress), rows);
+  files.join();
+  warn_of_no_virtual_scan(report);
   link_external_images(job, report);
   return report;
 }

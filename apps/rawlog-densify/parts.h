@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <vector>
 
 #include "densify.h"
@@ -26,6 +27,7 @@ struct PartOptions {
 /// @brief One report of those of a log's parts, in their order: a track that goes on from one part
 /// to the next, as the warm-up tells, keeps its number; poses are in the first part's frame at
 /// rest.
-[[nodiscard]] DensifyReport joined(std::vector<PartReport> parts);
+/// @param rows where the report's go; null: nowhere.
+[[nodiscard]] DensifyReport joined(std::vector<PartReport> parts, std::shared_ptr<ReportRows> rows);
 
 }  // namespace lidar_upsampling

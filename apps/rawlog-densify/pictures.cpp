@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include "drawing.h"
+#include "lidar_upsampling/io/output_file.h"
 
 namespace lidar_upsampling {
 namespace {
@@ -21,6 +22,15 @@ std::string numbered(int number, const std::string& what) {
 }
 
 }  // namespace
+
+void write_picture(const std::string& path, const cv::Mat& picture) {
+  std::vector<std::uint8_t> bytes;
+  if (!cv::imencode(".png", picture, bytes))
+    throw std::runtime_error(path + ": cannot be made a PNG");
+  OutputFile file(path, {true});
+  file.write(bytes.data(), bytes.size());
+  file.commit();
+}
 
 Pictures::Pictures(std::string folder) : folder_(std::move(folder)) {
   std::error_code error;
@@ -42,7 +52,7 @@ void Pictures::virtual_scan(const VirtualScan& scan) {
   for (const auto& [label, image] : images_) {
     cameras.push_back(image.camera);
     if (std::abs(seconds_between(image.stamp, scan.scan.stamp)) < kSameInstant_s)
-      write(numbered(number_, label), on_image(scan, image));
+      write(numbered(number_, names_.of(label)), on_image(scan, image));
   }
   write(numbered(number_, "from_above"),
         from_above(scene, &real_, trails_, cameras, real_.T_vehicle_lidar, view_));
@@ -50,9 +60,7 @@ void Pictures::virtual_scan(const VirtualScan& scan) {
 }
 
 void Pictures::write(const std::string& name, const cv::Mat& picture) const {
-  const auto path = std::filesystem::path(folder_) / name;
-  if (!cv::imwrite(path.string(), picture))
-    throw std::runtime_error(path.string() + ": cannot be written");
+  write_picture((std::filesystem::path(folder_) / name).string(), picture);
 }
 
 }  // namespace lidar_upsampling

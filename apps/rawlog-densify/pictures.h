@@ -8,9 +8,13 @@
 #include <vector>
 
 #include "bird_view.h"
+#include "lidar_upsampling/io/file_places.h"
 #include "lidar_upsampling/types.h"
 
 namespace lidar_upsampling {
+
+/// @brief As PNG, replacing one that is there. @throw std::runtime_error as OutputFile
+void write_picture(const std::string& path, const cv::Mat& picture);
 
 /// @brief Pictures of virtual scans: on the camera image, coloured by depth, and from above beside
 /// the last real scan, with the trails of moving objects.
@@ -30,6 +34,7 @@ class Pictures {
   void write(const std::string& name, const cv::Mat& picture) const;
 
   std::string folder_;
+  FileNames names_;  ///< of cameras
   int number_ = 0;
   LidarScan real_;
   std::map<std::string, CameraImage> images_;

@@ -3,6 +3,7 @@
 #include "processes.h"
 
 #include <poll.h>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <tbb/global_control.h>
 #include <tbb/info.h>
@@ -11,6 +12,7 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <csignal>
 #include <cstdio>
 #include <exception>
 #include <map>
@@ -61,9 +63,12 @@ class Children {
     std::array<int, 2> ends{};
     if (pipe(ends.data()) != 0) throw std::system_error(errno, std::generic_category(), "pipe");
     std::fflush(nullptr);  // else the child would write it, too
+    const pid_t parent = getpid();
     const pid_t process = fork();
     if (process < 0) throw std::system_error(errno, std::generic_category(), "fork");
     if (process == 0) {
+      prctl(PR_SET_PDEATHSIG, SIGTERM);  // not to go on alone
+      if (getppid() != parent) _exit(1);
       close(ends[0]);
       be_child(work, ends[1], cores);
     }

@@ -2,17 +2,18 @@
 // Copyright (c) 2026, the lidar_upsampling authors
 #pragma once
 
+#include <iosfwd>
 #include <map>
+#include <memory>
 #include <nlohmann/json_fwd.hpp>
-#include <optional>
 #include <set>
 #include <string>
-#include <utility>
 #include <vector>
 
-#include "lidar_upsampling/scene/object_scene.h"
+#include "durations.h"
 #include "lidar_upsampling/stopwatch.h"
 #include "lidar_upsampling/types.h"
+#include "report_rows.h"
 
 namespace lidar_upsampling {
 
@@ -28,26 +29,26 @@ struct DensifyReport {
   std::size_t num_virtual_scans = 0;
   std::size_t num_extrapolated = 0;               ///< of them, with the ego-motion extrapolated
   std::map<std::string, std::size_t> resampling;  ///< what became of it, virtual scans
-  std::map<std::string, std::size_t> warnings;    ///< text, how often
-  std::map<std::string, std::vector<double>> stage_ms;  ///< stage, one time per run of it
-  std::vector<std::string> stage_order;                 ///< as first met
-  std::map<std::string, std::size_t> object_status;     ///< status, objects times images
-  std::set<int> tracks, moving_tracks;                  ///< ids met
-  struct Row {
-    Stamp stamp;
-    std::size_t num_points;
-    ObjectMotion object;                   ///< without its points
-    std::optional<ObjectBox> box;          ///< none: no points of it are left in the virtual scan
-    Pose T_rest_lidar = Pose::Identity();  ///< at `stamp`, as in VirtualScan
+  struct Warning {
+    std::size_t count = 0;
+    std::string first;  ///< what the first one tells besides, if anything
   };
-  std::vector<Row> rows;
-  std::vector<std::pair<Stamp, OtherCluster>> other_clusters;  ///< by key scan
-  Stamp last_stamp;                                            ///< of the last virtual scan
-  Pose T_rest_lidar_last = Pose::Identity();                   ///< then
+  std::map<std::string, Warning> warnings;           ///< by kind
+  std::map<std::string, Durations> stage_ms;         ///< stage, one time per run of it
+  std::vector<std::string> stage_order;              ///< as first met
+  std::map<std::string, std::size_t> object_status;  ///< status, objects times images
+  std::set<int> tracks, moving_tracks;               ///< ids met
+  std::shared_ptr<ReportRows> rows;                  ///< null: none are kept
+  std::vector<ReportRow> last_rows;                  ///< of the last virtual scan, without boxes
+  Stamp last_stamp;                                  ///< of the last virtual scan
+  Pose T_rest_lidar_last = Pose::Identity();         ///< then
 
-  void add(const VirtualScan& scan, bool keep_rows);
+  void add(const VirtualScan& scan);
   void add(const std::vector<StageTime>& times);
-  void warn(const std::string& text);
+  void warn(const std::string& kind, const std::string& detail = {});
+
+  /// One text for each kind, however many there are, and how often.
+  [[nodiscard]] std::map<std::string, std::size_t> told_warnings() const;
 
   /// What all of a log have in common, without what was met so far.
   [[nodiscard]] DensifyReport begun_anew() const;
@@ -73,6 +74,9 @@ class Timed {
 /// @brief Everything, for programs: counts, each stage's median, p95 and total, a row per object
 /// and image.
 [[nodiscard]] nlohmann::json to_json(const DensifyReport& report);
+
+/// @brief The same as text, in memory that does not grow with the log.
+void write_json(const DensifyReport& report, std::ostream& out);
 
 /// @brief A screenful for people.
 [[nodiscard]] std::string summary(const DensifyReport& report);

@@ -6,6 +6,8 @@
 #include <tbb/parallel_invoke.h>
 
 #include <algorithm>
+#include <filesystem>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <utility>
@@ -63,6 +65,8 @@ class Walk {
     if (!job.paper_row) return;
     try {
       paper_.emplace(job.paper, without_virtual(input, result.virtual_label), paper_report_);
+      paper_report_.rows =
+          std::make_shared<ReportRows>((std::filesystem::temp_directory_path() / "rows").string());
     } catch (const std::exception& error) {
       result_.notes.push_back(std::string("no row `paper`: ") + error.what());
     }

@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the lidar_upsampling authors
-#include <fstream>
 #include <iostream>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
 #include "common/tool_main.h"
 #include "evaluation.h"
 #include "figures.h"
+#include "lidar_upsampling/io/file_places.h"
+#include "lidar_upsampling/io/output_file.h"
 #include "page/page.h"
 #include "page/plots.h"
 #include "page/running_time.h"
@@ -100,19 +102,34 @@ void add_options(CLI::App& app, Request& request) {
   });
 }
 
-void write_file(const std::string& text, const std::string& path) {
-  std::ofstream file(path);
-  file << text;
-  file.flush();
-  if (!file) throw std::runtime_error(path + ": cannot be written");
-}
+/// All that is written; whether it can be is told before the work.
+class Outputs {
+ public:
+  explicit Outputs(const Request& request) {
+    std::vector<FileUse> read{{"--report", request.report}, {"--config", request.config}};
+    for (const std::string& path : request.inputs) read.push_back({"--input", path});
+    for (const std::string& path : request.references) read.push_back({"--reference", path});
+    for (const std::string& path : request.truth_objects) read.push_back({"--labels", path});
+    check_files(read, {{"--json", request.json}, {"--csv", request.csv}, {"--html", request.html}});
+    for (const std::string& path : {request.json, request.csv, request.html})
+      if (!path.empty()) files_.emplace(path, OutputFile(path, {true, true}));
+  }
+
+  void write(const std::string& path, const std::string& text) {
+    OutputFile& file = files_.at(path);
+    file.write(text);
+    file.commit();
+  }
+
+ private:
+  std::map<std::string, OutputFile> files_;
+};
 
 Comparison compare(Request& request, const std::optional<RunReport>& run, bool with_pictures) {
   EvaluationJob& job = request.job;
   job.tolerance_s = 1e-3 * request.tolerance_ms;
   job.report = run ? &*run : nullptr;
   job.paper_row = !request.no_paper;
-  job.paper.keep_rows = true;
   job.options.labels.max_range_m = job.options.max_range_m;
   job.options.labels.all_around = job.options.all_around;
   if (!request.protocol.empty()) job.options.protocol = find_protocol(request.protocol);
@@ -142,6 +159,7 @@ void evaluate(Request& request) {
   if (wants_page && !has_gnuplot())
     throw std::runtime_error(
         "--html needs gnuplot for its plots, and it is not installed (Debian: gnuplot-nox)");
+  Outputs outputs(request);
   PageContent content;
   content.input = request.inputs.front();
   if (!request.report.empty()) content.run = load_run_report(request.report);
@@ -155,17 +173,17 @@ void evaluate(Request& request) {
   }
   if (content.run) std::cout << to_text(running_time_of(*content.run));
   if (!request.json.empty())
-    write_file(to_json(content.comparison->result, content.comparison->figures)
-                       .dump(1, ' ', false, nlohmann::json::error_handler_t::replace) +
-                   '\n',
-               request.json);
+    outputs.write(request.json,
+                  to_json(content.comparison->result, content.comparison->figures)
+                          .dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) +
+                      '\n');
   if (!request.csv.empty())
-    write_file(to_csv(content.comparison->result, content.comparison->figures), request.csv);
+    outputs.write(request.csv, to_csv(content.comparison->result, content.comparison->figures));
   if (!wants_page) return;
   content.coverage =
       measure_coverage(index_log({request.inputs.front(), request.job.accept_truncated}),
                        request.job.label, 1e-3 * request.tolerance_ms);
-  write_file(to_page(content), request.html);
+  outputs.write(request.html, to_page(content));
 }
 
 }  // namespace

@@ -49,12 +49,12 @@ std::optional<Box2d> box_on_picture(const Camera& camera, Stamp stamp, const Tra
 }  // namespace
 
 LabelFiles::LabelFiles(const LabelPaths& paths) {
-  if (!paths.boxes.empty()) boxes_.emplace(paths.boxes, paths.overwrite);
+  if (!paths.boxes.empty()) boxes_.emplace(paths.boxes, OutputOptions{paths.overwrite});
   if (paths.truth_objects.empty()) return;
-  ego_.emplace(beside(paths.truth_objects, "_ego.csv"), paths.overwrite);
+  ego_.emplace(beside(paths.truth_objects, "_ego.csv"), OutputOptions{paths.overwrite});
   ignored_path_ = beside(paths.truth_objects, "_ignored.csv");
-  ignored_.emplace(ignored_path_, paths.overwrite);
-  objects_.emplace(paths.truth_objects, paths.overwrite);
+  ignored_.emplace(ignored_path_, OutputOptions{paths.overwrite});
+  objects_.emplace(paths.truth_objects, OutputOptions{paths.overwrite});
 }
 
 void LabelFiles::write(const LabelledLog& log) {

@@ -8,7 +8,7 @@
 
 #include "import/object_tracks.h"
 #include "import/truth_tables.h"
-#include "rawlog-simulate/output_file.h"
+#include "lidar_upsampling/io/text_file.h"
 
 namespace lidar_upsampling::importing {
 
@@ -58,7 +58,7 @@ class LabelFiles {
                    const Trajectory& ego);
 
   std::string ignored_path_;
-  std::optional<sim::OutputFile> boxes_, objects_, ego_, ignored_;
+  std::optional<TextFile> boxes_, objects_, ego_, ignored_;
   std::size_t num_boxes_ = 0, num_objects_ = 0;
   std::vector<std::string> warnings_;
 };

@@ -8,6 +8,7 @@
 
 #include "common/tool_main.h"
 #include "kitti2rawlog/kitti_recording.h"
+#include "lidar_upsampling/io/file_places.h"
 
 namespace lidar_upsampling::kitti {
 namespace {
@@ -55,6 +56,10 @@ void convert(const Options& options) {
   if (!options.label_file.empty() && !options.labels.any()) {
     throw std::runtime_error("--labels needs --truth-objects or --boxes, where they go");
   }
+  check_files({{"--labels", options.label_file}},
+              {{"--output", options.output},
+               {"--boxes", options.labels.boxes},
+               {"--truth-objects", options.labels.truth_objects}});
   RawlogWriter writer(options.output, options.overwrite);
   Recording recording = open_recording(options);
   std::optional<importing::LabelFiles> labels;

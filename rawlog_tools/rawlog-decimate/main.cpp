@@ -10,6 +10,7 @@
 #include <set>
 
 #include "common/tool_main.h"
+#include "lidar_upsampling/io/file_places.h"
 #include "lidar_upsampling/io/rawlog_stream.h"
 #include "lidar_upsampling/io/sensory_frame.h"
 
@@ -86,6 +87,7 @@ std::string joined(const std::set<std::string>& labels) {
 }
 
 void decimate(const Options& options) {
+  check_files({{"--input", options.input}}, {{"--output", options.output}});
   RawlogReader reader({options.input, options.accept_truncated});
   RawlogWriter writer(options.output, options.overwrite);
   Decimator decimator(options);

@@ -4,13 +4,14 @@
 // Takes scans out of a log, as files that other programs read.
 #include <Eigen/Geometry>
 #include <filesystem>
-#include <fstream>
 #include <iostream>
 #include <sstream>
 #include <utility>
 
 #include "chosen_scans.h"
 #include "common/tool_main.h"
+#include "lidar_upsampling/io/file_places.h"
+#include "lidar_upsampling/io/output_file.h"
 #include "lidar_upsampling/types.h"
 #include "scan_files.h"
 #include "scene_files.h"
@@ -31,6 +32,8 @@ class IndexTable {
       : folder_(std::move(folder)), path_(folder_ + "/index.csv") {
     if (!overwrite && std::filesystem::exists(path_))
       throw std::runtime_error(folder_ + " holds an export already; --overwrite replaces it");
+    if (std::filesystem::exists(folder_))  // whether it can be written is told before the work
+      static_cast<void>(output_place(path_, true));
     rows_ << "file,label,stamp,unix_time,points,x,y,z,qx,qy,qz,qw\n";
   }
   void make_folder() const {
@@ -45,12 +48,7 @@ class IndexTable {
           << to_text(scan.stamp) << ',' << scan.size() << ',' << t.x() << ',' << t.y() << ','
           << t.z() << ',' << q.x() << ',' << q.y() << ',' << q.z() << ',' << q.w() << '\n';
   }
-  void write() const {
-    std::ofstream file(path_);
-    file << rows_.str();
-    file.close();
-    if (!file) throw std::runtime_error(path_ + ": cannot be written");
-  }
+  void write() const { write_file(path_, rows_.str()); }
 
  private:
   std::string folder_, path_;

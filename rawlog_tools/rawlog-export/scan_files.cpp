@@ -2,8 +2,7 @@
 // Copyright (c) 2026, the lidar_upsampling authors
 #include "scan_files.h"
 
-#include <fstream>
-#include <stdexcept>
+#include "lidar_upsampling/io/output_file.h"
 
 namespace lidar_upsampling::exporting {
 namespace {
@@ -13,13 +12,6 @@ static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "numbers are written as
 template <typename Number>
 void append(std::string& bytes, Number value) {
   bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
-}
-
-void write(const std::string& path, const std::string& bytes) {
-  std::ofstream file(path, std::ios::binary);
-  file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  file.flush();
-  if (!file) throw std::runtime_error(path + ": cannot be written");
 }
 
 void append_position(std::string& bytes, const Eigen::Vector3f& point) {
@@ -48,7 +40,7 @@ void write_ply(const std::string& path, const LidarScan& scan) {
     if (!scan.column.empty()) append(bytes, scan.column[i]);
     if (!scan.time_s.empty()) append(bytes, scan.time_s[i]);
   }
-  write(path, bytes);
+  write_file(path, bytes);
 }
 
 void write_bin(const std::string& path, const LidarScan& scan) {
@@ -57,7 +49,7 @@ void write_bin(const std::string& path, const LidarScan& scan) {
     append_position(bytes, scan.points[i]);
     append(bytes, scan.intensity.empty() ? 0.F : scan.intensity[i]);
   }
-  write(path, bytes);
+  write_file(path, bytes);
 }
 
 }  // namespace lidar_upsampling::exporting

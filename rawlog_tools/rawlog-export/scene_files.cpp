@@ -4,9 +4,8 @@
 
 #include <mrpt/opengl/CSetOfLines.h>
 
-#include <stdexcept>
-
 #include "lidar_upsampling/io/images.h"
+#include "lidar_upsampling/io/rawlog_stream.h"
 #include "lidar_upsampling/scene/object_scene.h"
 
 namespace lidar_upsampling::exporting {
@@ -15,8 +14,9 @@ namespace {
 using mrpt::opengl::CSetOfObjects;
 
 void save(const std::string& path, const CSetOfObjects::Ptr& lidar_frame, const Pose& T) {
-  if (!scene_around_vehicle(lidar_frame, T)->saveToFile(path))
-    throw std::runtime_error(path + ": cannot be written");
+  RawlogWriter file(path, true);  // SceneViewer3D's files are a packed object, too
+  file.write(*scene_around_vehicle(lidar_frame, T));
+  file.commit();
 }
 
 const ObjectBox* box_of(int track, const ObjectsAt& objects) {

@@ -4,6 +4,8 @@
 #include <iostream>
 
 #include "common/tool_main.h"
+#include "lidar_upsampling/ini_text.h"
+#include "lidar_upsampling/io/file_places.h"
 #include "simulate.h"
 #include "simulator/variation.h"
 
@@ -41,6 +43,9 @@ int main(int argc, char** argv) {
       "far as the scenario's [variation] lets; without it, it is exactly as written");
   app.add_flag("--overwrite", job.overwrite, "replace existing files");
   return run_tool(app, argc, argv, [&] {
+    check_files({{"--scenario", scenario_path}},
+                {{"--output", job.output}, {"--truth", job.truth}});
+    static_cast<void>(read_ini(scenario_path, IniRepeats::allow));  // lines that do nothing
     job.scenario = sim::load_scenario(scenario_path);
     // First, so that however much of it is asked for, a seed's situation is one.
     if (!seed_option->empty()) job.scenario = sim::drawn(job.scenario, seed);

@@ -16,7 +16,7 @@
 #include "lidar_upsampling/io/carriers.h"
 #include "lidar_upsampling/io/images.h"
 #include "lidar_upsampling/io/rawlog_stream.h"
-#include "output_file.h"
+#include "lidar_upsampling/io/text_file.h"
 #include "simulator/camera.h"
 #include "simulator/lidar.h"
 #include "simulator/sensor_errors.h"
@@ -118,9 +118,9 @@ class Simulation {
         carrier_(carrier_of(job.scenario)),
         log_(job.output, job.overwrite),
         formatter_(log_, world_, job.scenario.format),
-        objects_(beside(job.output, "_objects.csv"), job.overwrite),
-        ego_(beside(job.output, "_ego.csv"), job.overwrite),
-        boxes_(beside(job.output, "_boxes.csv"), job.overwrite) {
+        objects_(beside(job.output, "_objects.csv"), {job.overwrite}),
+        ego_(beside(job.output, "_ego.csv"), {job.overwrite}),
+        boxes_(beside(job.output, "_boxes.csv"), {job.overwrite}) {
     if (!job.truth.empty()) truth_.emplace(job.truth, job.overwrite);
     for (const CameraSpec& camera : scenario_.cameras) renderers_.emplace_back(camera);
     write_objects_header(objects_.stream());
@@ -220,7 +220,7 @@ class Simulation {
   mrpt::obs::CObservationVelodyneScan velodyne_;  // what Carrier::same is like
   RawlogWriter log_;
   LogFormatter formatter_;
-  OutputFile objects_, ego_, boxes_;
+  TextFile objects_, ego_, boxes_;
   std::optional<RawlogWriter> truth_;
   std::vector<CameraRenderer> renderers_;
   Stamp truth_stamp_;

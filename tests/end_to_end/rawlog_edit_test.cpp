@@ -59,19 +59,19 @@ TEST_P(RawlogEdit, counts_describes_and_removes_the_virtual_scans_and_nothing_el
                                observations_of(folder / "in.rawlog"));
 }
 
-const std::string kRangeScan = "mrpt::obs::CObservation3DRangeScan";
-const std::string kPointCloud = "mrpt::obs::CObservationPointCloud";
+const std::string kRangeScanClass = "mrpt::obs::CObservation3DRangeScan";
+const std::string kPointCloudClass = "mrpt::obs::CObservationPointCloud";
 const std::string kFrames = "[log]\nformat = sensory_frames\n";
 
 INSTANTIATE_TEST_SUITE_P(
     Logs, RawlogEdit,
-    testing::Values(EditedLog{"range_scans", "", "3drangescan", kRangeScan},
-                    EditedLog{"point_clouds", "", "pointcloud", kPointCloud},
-                    EditedLog{"range_scans_in_frames", kFrames, "3drangescan", kRangeScan},
-                    EditedLog{"point_clouds_in_frames", kFrames, "pointcloud", kPointCloud},
-                    EditedLog{"range_scans_of_a_depth_camera", "", "3drangescan", kRangeScan,
+    testing::Values(EditedLog{"range_scans", "", "3drangescan", kRangeScanClass},
+                    EditedLog{"point_clouds", "", "pointcloud", kPointCloudClass},
+                    EditedLog{"range_scans_in_frames", kFrames, "3drangescan", kRangeScanClass},
+                    EditedLog{"point_clouds_in_frames", kFrames, "pointcloud", kPointCloudClass},
+                    EditedLog{"range_scans_of_a_depth_camera", "", "3drangescan", kRangeScanClass,
                               "DEPTH_VIRTUAL", kDepthCamera},
-                    EditedLog{"point_clouds_of_a_depth_camera", "", "pointcloud", kPointCloud,
+                    EditedLog{"point_clouds_of_a_depth_camera", "", "pointcloud", kPointCloudClass,
                               "DEPTH_VIRTUAL", kDepthCamera}),
     [](const auto& test) { return test.param.name; });
 

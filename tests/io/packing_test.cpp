@@ -7,6 +7,7 @@
 
 #include "lidar_upsampling/io/gzip_reader.h"
 #include "lidar_upsampling/io/gzip_writer.h"
+#include "lidar_upsampling/io/output_file.h"
 #include "small_logs.h"
 #include "test_folder.h"
 
@@ -25,9 +26,11 @@ Bytes some_bytes(std::size_t size, unsigned seed = 1) {
 }
 
 void write_file(const std::string& path, Compression compression, const std::vector<Bytes>& parts) {
-  GzipWriter writer(path, compression);
+  OutputFile file(path);
+  GzipWriter writer(file, compression);
   for (const Bytes& part : parts) writer.write(part);
-  writer.close();
+  writer.finish();
+  file.commit();
 }
 
 Bytes read_as_mrpt_does(const std::string& path, std::size_t size) {

@@ -2,13 +2,11 @@
 // Copyright (c) 2026, the lidar_upsampling authors
 #include "plots.h"
 
-#include <stdlib.h>  // mkdtemp is POSIX, not in <cstdlib>
 #include <unistd.h>
 
 #include <array>
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
 #include <sstream>
 #include <stdexcept>
 
@@ -18,28 +16,28 @@ namespace lidar_upsampling {
 
 namespace {
 
-/// A folder for as long as gnuplot works.
-class TemporaryFolder {
+/// A file without a name, which a program that this one starts can write.
+class NamelessFile {
  public:
-  TemporaryFolder() {
-    std::string name = (std::filesystem::temp_directory_path() / "rawlog-evaluate-XXXXXX").string();
-    if (mkdtemp(name.data()) == nullptr)
-      throw std::runtime_error(name + ": cannot make a temporary folder for plots");
-    path_ = name;
+  NamelessFile() : file_(std::tmpfile()) {
+    if (file_ == nullptr) throw std::runtime_error("cannot make a temporary file for plots");
   }
-  ~TemporaryFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+  ~NamelessFile() { std::fclose(file_); }
+  NamelessFile(const NamelessFile&) = delete;
+  NamelessFile& operator=(const NamelessFile&) = delete;
 
-  [[nodiscard]] std::string operator/(const std::string& name) const {
-    return (path_ / name).string();
+  [[nodiscard]] std::string path() const { return "/dev/fd/" + std::to_string(fileno(file_)); }
+  [[nodiscard]] std::string content() const {
+    std::rewind(file_);
+    std::string text;
+    std::array<char, 4096> buffer{};
+    for (std::size_t n = 0; (n = std::fread(buffer.data(), 1, buffer.size(), file_)) > 0;)
+      text.append(buffer.data(), n);
+    return text;
   }
 
  private:
-  std::filesystem::path path_;
+  std::FILE* file_;
 };
 
 /// A text as gnuplot takes it: in double quotes, where \n is a new line.
@@ -146,13 +144,6 @@ std::string embeddable(std::string svg, const std::string& caption, std::size_t 
   return svg;
 }
 
-std::string read_file(const std::string& path) {
-  std::ifstream file(path);
-  std::ostringstream text;
-  text << file.rdbuf();
-  return text.str();
-}
-
 }  // namespace
 
 bool has_gnuplot() {
@@ -166,16 +157,15 @@ bool has_gnuplot() {
 std::vector<std::string> render_plots(const std::vector<Plot>& plots) {
   if (plots.empty()) return {};
   if (!has_gnuplot()) throw std::runtime_error("gnuplot is not installed (package gnuplot-nox)");
-  const TemporaryFolder folder;
-  const auto file_of = [&](std::size_t i) { return folder / (std::to_string(i) + ".svg"); };
+  const std::vector<NamelessFile> drawn(plots.size());
   std::FILE* const gnuplot = popen("gnuplot", "w");
   if (gnuplot == nullptr) throw std::runtime_error("gnuplot cannot be started");
   for (std::size_t i = 0; i < plots.size(); ++i)
-    std::fputs(script_of(plots[i], file_of(i)).c_str(), gnuplot);
+    std::fputs(script_of(plots[i], drawn[i].path()).c_str(), gnuplot);
   if (pclose(gnuplot) != 0) throw std::runtime_error("gnuplot failed on the page's plots");
   std::vector<std::string> elements;
   for (std::size_t i = 0; i < plots.size(); ++i)
-    elements.push_back(embeddable(read_file(file_of(i)), plots[i].caption, i));
+    elements.push_back(embeddable(drawn[i].content(), plots[i].caption, i));
   return elements;
 }
 

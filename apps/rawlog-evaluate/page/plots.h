@@ -47,8 +47,7 @@ struct Plot {
 
 /// @brief Draws plots with gnuplot.
 /// @return an `svg` element for each, fit to stand beside others in one HTML page.
-/// @throw std::runtime_error gnuplot is not there or fails, or the temporary folder cannot be
-/// written.
+/// @throw std::runtime_error gnuplot is not there or fails, or a temporary file cannot be made.
 [[nodiscard]] std::vector<std::string> render_plots(const std::vector<Plot>& plots);
 
 }  // namespace lidar_upsampling

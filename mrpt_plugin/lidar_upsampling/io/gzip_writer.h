@@ -8,7 +8,6 @@
 #include <exception>
 #include <memory>
 #include <mutex>
-#include <string>
 #include <thread>
 #include <vector>
 
@@ -16,12 +15,14 @@
 
 namespace lidar_upsampling {
 
-/// @brief Writes a file, gzip members one after the other or plain, packed by a thread of its own;
-/// and knows whether all of it reached the disk. The same writes give the same file.
+class OutputFile;
+
+/// @brief Fills a file with gzip members one after the other or plainly, packed by a thread of its
+/// own. The same writes give the same file.
 class GzipWriter {
  public:
-  /// @throw std::runtime_error the file is there already, or cannot be made.
-  GzipWriter(const std::string& path, Compression compression);
+  /// @param file nobody else writes to it before finish(). Must outlive this.
+  GzipWriter(OutputFile& file, Compression compression);
   ~GzipWriter();
   GzipWriter(const GzipWriter&) = delete;
   GzipWriter& operator=(const GzipWriter&) = delete;
@@ -30,8 +31,8 @@ class GzipWriter {
   /// @throw std::runtime_error the system's reason, as "No space left on device", of this write or
   /// of one before.
   void write(const std::vector<std::uint8_t>& bytes);
-  /// The last call to make. @throw std::runtime_error likewise.
-  void close();
+  /// The last call to make: all is written. @throw std::runtime_error likewise.
+  void finish();
 
  private:
   using Bytes = std::vector<std::uint8_t>;
@@ -39,11 +40,8 @@ class GzipWriter {
   void hand_over(Bytes block);
   void join();
   void work();
-  void write_out(const Bytes& bytes);
-  [[noreturn]] void fail(int error_number) const;
 
-  std::string path_;
-  int file_ = -1;
+  OutputFile& file_;                // the worker's
   std::unique_ptr<Packer> packer_;  // the worker's
   Bytes block_;                     // that gathers
 

@@ -14,6 +14,7 @@
 #include <cstdio>
 
 #include "lidar_upsampling/io/carriers.h"
+#include "lidar_upsampling/io/file_places.h"
 #include "lidar_upsampling/io/images.h"
 
 namespace lidar_upsampling {
@@ -117,6 +118,10 @@ LogIndex LogIndexer::index() const {
 }
 
 LogIndex index_log(const LogFile& log, const std::function<void(double)>& progress) {
+  if (is_device_or_pipe(log.path))
+    throw std::runtime_error(log.path +
+                             ": all of the log must be looked through first, and what comes "
+                             "through a pipe is read once: save it to a file");
   RawlogReader reader(log);
   LogIndexer indexer(log.path);
   while (const auto entry = reader.next()) {

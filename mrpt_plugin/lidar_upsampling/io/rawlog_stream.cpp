@@ -9,14 +9,13 @@
 #include <mrpt/obs/CSensoryFrame.h>
 #include <mrpt/obs/registerAllClasses.h>
 #include <mrpt/system/datetime.h>
-#include <unistd.h>
 
-#include <cstdio>
 #include <filesystem>
 #include <system_error>
 
 #include "lidar_upsampling/io/gzip_reader.h"
 #include "lidar_upsampling/io/gzip_writer.h"
+#include "lidar_upsampling/io/output_file.h"
 #include "lidar_upsampling/io/reading_guard.h"
 #include "lidar_upsampling/text.h"
 
@@ -175,50 +174,29 @@ RawlogEntry entry_of(const mrpt::serialization::CSerializable::Ptr& object) {
   return {object, bytes_of(*object)};
 }
 
-namespace {
-
-void refuse_existing(const std::string& path, bool overwrite) {
-  if (!fs::exists(path)) return;
-  if (!fs::is_regular_file(path)) throw std::runtime_error(path + " is no regular file");
-  if (!overwrite) throw std::runtime_error(path + " exists: pass --overwrite to replace it");
-}
-
-// Where the output really goes: through symbolic links, so that these are kept.
-std::string checked_output_path(const std::string& path, bool overwrite) {
-  const fs::path parent = fs::absolute(path).parent_path();
-  if (path.empty() || !fs::is_directory(parent)) {
-    throw std::runtime_error("cannot write '" + path + "': there is no folder " + parent.string());
-  }
-  refuse_existing(path, overwrite);
-  return fs::exists(path) ? fs::canonical(path).string() : path;
-}
-
-}  // namespace
-
 RawlogWriter::RawlogWriter(const std::string& path, bool overwrite, Compression compression)
-    : path_(checked_output_path(path, overwrite)),
-      temporary_path_(path_ + ".tmp-" + std::to_string(getpid())),
-      overwrite_(overwrite),
-      file_(std::make_unique<GzipWriter>(temporary_path_, compression)) {}
+    : own_(std::make_unique<OutputFile>(path, OutputOptions{overwrite})),
+      packed_(std::make_unique<GzipWriter>(*own_, compression)) {}
 
-RawlogWriter::~RawlogWriter() {
-  if (!is_committed_) std::remove(temporary_path_.c_str());
-}
+RawlogWriter::RawlogWriter(OutputFile& file, Compression compression)
+    : packed_(std::make_unique<GzipWriter>(file, compression)) {}
+
+RawlogWriter::~RawlogWriter() = default;
 
 void RawlogWriter::write(const mrpt::serialization::CSerializable& object) {
   write(RawlogEntry{nullptr, bytes_of(object)});
 }
 
 void RawlogWriter::write(const RawlogEntry& entry) {
-  file_->write(entry.bytes);
+  packed_->write(entry.bytes);
   ++num_written_;
 }
 
+void RawlogWriter::finish() { packed_->finish(); }
+
 void RawlogWriter::commit() {
-  file_->close();
-  refuse_existing(path_, overwrite_);
-  fs::rename(temporary_path_, path_);
-  is_committed_ = true;
+  finish();
+  own_->commit();
 }
 
 }  // namespace lidar_upsampling

@@ -17,6 +17,7 @@
 namespace lidar_upsampling {
 
 class GzipWriter;
+class OutputFile;
 class RecordingGzipReader;
 
 /// One object of a log, with the very bytes it was read from.
@@ -97,14 +98,16 @@ class RawlogReader {
   std::optional<std::string> damage_;
 };
 
-/// @brief Writes a gzip rawlog under a temporary name beside `path`; it gets its own name on
-/// `commit()`, and is removed if that never comes.
+/// @brief Writes a gzip rawlog, which appears on `commit()` and never if that does not come, see
+/// OutputFile.
 class RawlogWriter {
  public:
   /// @throw std::runtime_error `path` exists and `overwrite` is off, is no regular file, or cannot
   /// be written.
   RawlogWriter(const std::string& path, bool overwrite,
                Compression compression = Compression::fast);
+  /// @brief Into a file of the caller's, who commits it after finish(). It must outlive the writer.
+  RawlogWriter(OutputFile& file, Compression compression);
   ~RawlogWriter();
   RawlogWriter(const RawlogWriter&) = delete;
   RawlogWriter& operator=(const RawlogWriter&) = delete;
@@ -113,18 +116,19 @@ class RawlogWriter {
   void write(const mrpt::serialization::CSerializable& object);
   /// Copies an object untouched.
   void write(const RawlogEntry& entry);
-  /// Flushes, checks that all of it reached the disk, and renames. The last call to make.
+  /// All is in the file. The last call to make, where that is the caller's.
+  /// @throw std::runtime_error a write error
+  void finish();
+  /// Checks that all of it reached the disk, and gives the log its name. The last call to make.
   /// @throw std::runtime_error a write error, or `path` has come up in the meantime.
   void commit();
 
   [[nodiscard]] std::size_t num_written() const { return num_written_; }
 
  private:
-  std::string path_, temporary_path_;
-  bool overwrite_;
-  std::unique_ptr<GzipWriter> file_;
+  std::unique_ptr<OutputFile> own_;
+  std::unique_ptr<GzipWriter> packed_;
   std::size_t num_written_ = 0;
-  bool is_committed_ = false;
 };
 
 }  // namespace lidar_upsampling

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the lidar_upsampling authors
+#pragma once
+
+#include <mrpt/obs/CObservation.h>
+
+#include <map>
+#include <set>
+#include <string>
+
+#include "densify.h"
+
+namespace lidar_upsampling {
+
+/// What of a log is no error, but makes the result worse: told as warnings.
+class StampWatch {
+ public:
+  explicit StampWatch(DensifyReport& report) : report_(report) {}
+
+  /// @return whether it is not the last one of its label for the second time.
+  bool note(const mrpt::obs::CObservation& observation);
+
+ private:
+  DensifyReport& report_;
+  std::map<std::string, Stamp> last_;  ///< by label
+};
+
+/// @brief Warns of settings and boxes for sensors that the log does not have.
+/// @param labels of all observations. @param cameras those whose images are used.
+void warn_of_unused(const DensifyJob& job, const std::set<std::string>& labels,
+                    const std::set<std::string>& cameras, DensifyReport& report);
+
+/// Warns of a log of which nothing was made, and says why that may be.
+void warn_of_no_virtual_scan(DensifyReport& report);
+
+}  // namespace lidar_upsampling

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the lidar_upsampling authors
+#include "lidar_upsampling/io/file_places.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <filesystem>
+#include <stdexcept>
+#include <system_error>
+
+namespace fs = std::filesystem;
+
+namespace lidar_upsampling {
+namespace {
+
+// Links to links end somewhere, but for those in a circle.
+fs::path without_links(fs::path path) {
+  constexpr int kMostLinks = 40;
+  for (int i = 0; i < kMostLinks && fs::is_symlink(fs::symlink_status(path)); ++i)
+    path = path.parent_path() / fs::read_symlink(path);
+  return path;
+}
+
+bool is_one_file(const std::string& a, const std::string& b) {
+  std::error_code error;
+  return fs::equivalent(a, b, error) && !error;
+}
+
+}  // namespace
+
+bool is_device_or_pipe(const std::string& path) {
+  std::error_code error;
+  const fs::file_status status = fs::status(path, error);
+  return fs::is_character_file(status) || fs::is_fifo(status) || fs::is_socket(status);
+}
+
+std::string output_place(const std::string& path, bool overwrite) {
+  const fs::path target = without_links(fs::absolute(path));
+  const fs::path folder = target.parent_path();
+  std::error_code error;
+  if (path.empty() || !fs::is_directory(folder, error))
+    throw std::runtime_error("cannot write '" + path + "': there is no folder " + folder.string());
+  if (fs::exists(target, error)) {
+    if (!fs::is_regular_file(target)) throw std::runtime_error(path + " is no regular file");
+    if (!overwrite) throw std::runtime_error(path + " exists: pass --overwrite to replace it");
+  }
+  if (::access(folder.c_str(), W_OK | X_OK) != 0)
+    throw std::runtime_error("cannot write '" + path +
+                             "' into its folder: " + std::generic_category().message(errno));
+  return (fs::canonical(folder) / target.filename()).string();
+}
+
+void check_files(const std::vector<FileUse>& inputs, const std::vector<FileUse>& outputs) {
+  std::map<std::string, std::string> told_by_place;
+  for (const FileUse& output : outputs) {
+    if (output.path.empty() || is_device_or_pipe(output.path)) continue;
+    for (const FileUse& input : inputs)
+      if (!input.path.empty() && is_one_file(input.path, output.path))
+        throw std::runtime_error(output.told_by + " " + output.path + ": that is the file of " +
+                                 input.told_by + ", which is read");
+    const auto [other, is_new] =
+        told_by_place.emplace(output_place(output.path, true), output.told_by);
+    if (!is_new)
+      throw std::runtime_error(output.told_by + " " + output.path + ": " + other->second +
+                               " goes there, too");
+  }
+}
+
+std::string FileNames::of(const std::string& label) {
+  const auto known = by_label_.find(label);
+  if (known != by_label_.end()) return known->second;
+  std::string plain = label;
+  const auto may_not_be = [](unsigned char c) { return c == '/' || c < ' '; };
+  std::replace_if(plain.begin(), plain.end(), may_not_be, '_');
+  std::string name = plain;
+  const auto is_taken = [&] {
+    return std::any_of(by_label_.begin(), by_label_.end(),
+                       [&](const auto& other) { return other.second == name; });
+  };
+  for (int number = 2; is_taken(); ++number) name = plain + "-" + std::to_string(number);
+  return by_label_[label] = name;
+}
+
+}  // namespace lidar_upsampling
