@@ -29,6 +29,8 @@ if [ ${#as_root[@]} -gt 0 ] && ! command -v sudo >/dev/null; then
   exit 1
 fi
 echo "Installing: ${missing[*]}"
-"${as_root[@]}" apt-get update -qq
-"${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends \
-  "${missing[@]}" >/dev/null
+# On a terminal apt shows how far it is; elsewhere only what goes wrong is of use.
+if [ -t 1 ]; then quiet=() shown=/dev/stdout; else quiet=(-qq) shown=/dev/null; fi
+"${as_root[@]}" apt-get update "${quiet[@]}" > "$shown"
+"${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y "${quiet[@]}" --no-install-recommends \
+  "${missing[@]}" > "$shown"

@@ -17,8 +17,8 @@ take() {
 }
 
 log() {  # name, scenario, further settings
-  "$build/rawlog_tools/rawlog-simulate/rawlog-simulate" --scenario "$2" --output "$work/sim.rawlog" --truth "$work/truth.rawlog" --overwrite
-  "$build/apps/rawlog-densify/rawlog-densify" --config config/default.ini --input "$work/sim.rawlog" --output "$work/$1" \
+  "$build/bin/rawlog-simulate" --scenario "$2" --output "$work/sim.rawlog" --truth "$work/truth.rawlog" --overwrite
+  "$build/bin/rawlog-densify" --config config/default.ini --input "$work/sim.rawlog" --output "$work/$1" \
     --report "$work/report.json" --overwrite "${@:3}"
 }
 
@@ -39,7 +39,7 @@ screen drag 3 1000 300 -250 260
 take rawlogviewer_objects 874x346+406+292
 screen end
 
-"$build/rawlog_tools/rawlog-export/rawlog-export" --input "$work/dense.rawlog" --output "$work/scene" --format 3Dscene \
+"$build/bin/rawlog-export" --input "$work/dense.rawlog" --output "$work/scene" --format 3Dscene \
   --report "$work/report.json" --index 3
 mv "$work"/scene/*.3Dscene "$work/instant.3Dscene"
 rm -rf "$work/screen"

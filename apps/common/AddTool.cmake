@@ -6,6 +6,7 @@ include(${PROJECT_SOURCE_DIR}/share/cmake/ToolDocs.cmake)
 function(lidar_upsampling_add_tool name)
   cmake_parse_arguments(ARG "" "" "SOURCES;LIBRARIES" ${ARGN})
   add_executable(${name} ${ARG_SOURCES})
+  set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/bin)
   target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR}/apps ${PROJECT_SOURCE_DIR}/rawlog_tools)
   target_compile_definitions(${name} PRIVATE LIDAR_UPSAMPLING_VERSION="${PROJECT_VERSION}")
   target_link_libraries(${name} PRIVATE lidar_upsampling_options ${ARG_LIBRARIES}

@@ -35,7 +35,13 @@ function(lidar_upsampling_install)
     install(TARGETS mrpt_lidar_upsampling LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/mrpt-plugins)
   endif()
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/config
-    DESTINATION ${CMAKE_INSTALL_DATADIR}/lidar_upsampling FILES_MATCHING PATTERN "*.ini" PATTERN "*.yaml")
+    DESTINATION ${CMAKE_INSTALL_DATADIR}/lidar_upsampling FILES_MATCHING PATTERN "*.ini" PATTERN "*.yaml" PATTERN "*.yml")
+  # Pages lie to one another as in the sources, so that their links lead somewhere.
+  set(pages ${CMAKE_INSTALL_DATADIR}/doc/lidar-upsampling)
+  install(FILES ${PROJECT_SOURCE_DIR}/README.md ${PROJECT_SOURCE_DIR}/CHANGELOG.md ${PROJECT_SOURCE_DIR}/CONTRIBUTING.md DESTINATION ${pages})
+  install(DIRECTORY ${PROJECT_SOURCE_DIR}/share DESTINATION ${pages}
+    FILES_MATCHING PATTERN "*.md" PATTERN "*.png" PATTERN "*.jpg"
+    PATTERN cmake EXCLUDE PATTERN protocols EXCLUDE PATTERN slurm EXCLUDE)
   install(FILES ${PROJECT_SOURCE_DIR}/LICENSE
     DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/lidar-upsampling RENAME copyright)
   install(FILES ${PROJECT_SOURCE_DIR}/LICENSE

@@ -9,8 +9,8 @@ config=$project/config/default.ini
 comparisons=()
 
 tool() {
-  local place places=("$project"/build/{release,dev}/{apps,rawlog_tools}/"$1"/"$1")
-  [ -z "${BUILD:-}" ] || places=("$BUILD"/{apps,rawlog_tools}/"$1"/"$1" "${places[@]}")
+  local place places=("$project"/build/{release,dev}/bin/"$1")
+  [ -z "${BUILD:-}" ] || places=("$BUILD/bin/$1" "${places[@]}")
   for place in "${places[@]}"; do
     if [ -x "$place" ]; then echo "$place"; return; fi
   done
