@@ -58,7 +58,7 @@ void draw_scale(cv::Mat& picture, const cv::Mat& palette) {
 cv::Scalar color_of_track(int track) {
   constexpr double kGolden = 0.618034;
   const double turn = track * kGolden - std::floor(track * kGolden);
-  const cv::Mat3b hsv(1, 1, cv::Vec3b(static_cast<std::uint8_t>(180 * turn), 200, 255));
+  const cv::Mat3b hsv(1, 1, cv::Vec3b(static_cast<std::uint8_t>(180 * turn), 160, 255));
   cv::Mat3b bgr;
   cv::cvtColor(hsv, bgr, cv::COLOR_HSV2BGR);
   return {double(bgr(0)[0]), double(bgr(0)[1]), double(bgr(0)[2])};
