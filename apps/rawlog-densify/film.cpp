@@ -61,10 +61,14 @@ void Film::image(const CameraImage& image) {
 }
 
 const CameraImage* Film::image_at(Stamp stamp) const {
-  constexpr double kSame_s = 0.01;
-  for (const CameraImage& image : images_)
-    if (std::abs(seconds_between(image.stamp, stamp)) < kSame_s) return &image;
-  return nullptr;
+  constexpr double kBeside_s = 0.05;  // a scan and its image are not taken at once everywhere
+  const auto apart = [&](const CameraImage& image) {
+    return std::abs(seconds_between(image.stamp, stamp));
+  };
+  const auto nearest = std::min_element(
+      images_.begin(), images_.end(),
+      [&](const CameraImage& a, const CameraImage& b) { return apart(a) < apart(b); });
+  return nearest != images_.end() && apart(*nearest) < kBeside_s ? &*nearest : nullptr;
 }
 
 void Film::virtual_scan(const VirtualScan& scan) {
