@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <exception>
@@ -47,27 +48,47 @@ inline void warn(const std::string& tool, const std::string& text) {
   std::cerr << tool << ": warning: " << text << "\n";
 }
 
-/// Percents on a terminal, nothing in a pipe.
+/// Percents and the time left: on a terminal in place, elsewhere a line a minute.
 class Progress {
  public:
   explicit Progress(std::string what) : what_(std::move(what)) {}
   ~Progress() {
-    if (percent_ >= 0) std::fputs("\r\033[K", stderr);
+    if (on_terminal_ && percent_ >= 0) std::fputs("\r\033[K", stderr);
   }
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
   /// @param share 0 to 1.
   void operator()(double share) {
+    constexpr double kLine_s = 60;
     const int percent = static_cast<int>(std::floor(100. * share));
-    if (!on_terminal_ || percent == percent_) return;
+    const double since_s = seconds_since(begin_);
+    if (on_terminal_ ? percent == percent_ : since_s < told_s_ + kLine_s) return;
     percent_ = percent;
-    std::fprintf(stderr, "\r%s %3d %%", what_.c_str(), percent);
+    told_s_ = since_s;
+    std::fprintf(stderr, on_terminal_ ? "\r\033[K%s %3d %%%s" : "%s %3d %%%s\n", what_.c_str(),
+                 percent, left(share, since_s).c_str());
   }
 
  private:
+  using Clock = std::chrono::steady_clock;
+  static double seconds_since(Clock::time_point begin) {
+    return std::chrono::duration<double>(Clock::now() - begin).count();
+  }
+  /// Nothing before it can be told.
+  static std::string left(double share, double since_s) {
+    constexpr double kLeastShare = 0.02, kLeast_s = 2;
+    if (share < kLeastShare || since_s < kLeast_s) return {};
+    const auto left_s = static_cast<long>(since_s * (1 - share) / share);
+    return ", " +
+           (left_s < 120 ? std::to_string(left_s) + " s" : std::to_string(left_s / 60) + " min") +
+           " left";
+  }
+
   std::string what_;
   bool on_terminal_ = isatty(STDERR_FILENO) != 0;
+  Clock::time_point begin_ = Clock::now();
+  double told_s_ = 0;
   int percent_ = -1;
 };
 

@@ -47,10 +47,10 @@ void add_settings(CLI::App& app, Request& request) {
 
 void add_files(CLI::App& app, Request& request) {
   DensifyJob& job = request.job;
-  app.add_option("--input", request.inputs,
+  app.add_option("-i,--input", request.inputs,
                  "the log to densify (.rawlog, plain or gzip); of several, output, report, film "
                  "and pictures are folders");
-  app.add_option("--output", job.output, "the densified log");
+  app.add_option("-o,--output", job.output, "the densified log");
   app.add_option("--report", request.report,
                  "counts, times, and a row per object and image (JSON)");
   app.add_option("--pictures", job.pictures, "folder for pictures of every virtual scan");
@@ -161,5 +161,8 @@ int main(int argc, char** argv) {
     if (request.check && request.inputs.size() > 1)
       throw CLI::ValidationError("--check", "looks at one input");
   });
+  app.footer(
+      "Example:\n  rawlog-densify -i log.rawlog -o dense.rawlog --report report.json --film "
+      "film.mp4");
   return run_tool(app, argc, argv, [&] { work_on(request); });
 }

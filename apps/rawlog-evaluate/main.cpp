@@ -38,7 +38,7 @@ void add_options(CLI::App& app, Request& request) {
                      "--report tells, --html and --report tell of coverage, tracks and times")
           ->expected(1)
           ->take_all();
-  app.add_option("--input", request.inputs,
+  app.add_option("-i,--input", request.inputs,
                  "the densified log; several are judged together, each with its --reference")
       ->required()
       ->expected(1)
@@ -193,5 +193,7 @@ int main(int argc, char** argv) {
                "rawlog-evaluate");
   Request request;
   add_options(app, request);
+  app.footer(
+      "Example:\n  rawlog-evaluate --reference full.rawlog -i dense.rawlog --html page.html");
   return run_tool(app, argc, argv, [&] { evaluate(request); });
 }

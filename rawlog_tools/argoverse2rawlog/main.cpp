@@ -60,7 +60,7 @@ int main(int argc, char** argv) {
       "egovehicle.",
       "argoverse2rawlog");
   app.add_option("--log", options.log, "Folder of the log")->required();
-  app.add_option("--output", options.output, "The rawlog to write")->required();
+  app.add_option("-o,--output", options.output, "The rawlog to write")->required();
   app.add_option("--cameras", options.cameras, "Names, as ring_front_center,stereo_front_left")
       ->delimiter(',')
       ->capture_default_str();
@@ -68,6 +68,9 @@ int main(int argc, char** argv) {
   app.add_option("--truth-objects", options.labels.truth_objects,
                  "Truth table ..._objects.csv to make from them, ..._ego.csv beside");
   app.add_flag("--overwrite", options.overwrite, "Replace existing outputs");
+  app.footer(
+      "Example:\n  argoverse2rawlog --log train1/043aeba7 -o log.rawlog --truth-objects "
+      "log_objects.csv");
   return run_tool(app, argc, argv, [&] {
     options.labels.overwrite = options.overwrite;
     argoverse::convert(options);

@@ -71,13 +71,15 @@ int main(int argc, char** argv) {
       "The vehicle frame is the one that the scene's calibration refers to.",
       "dgp2rawlog");
   app.add_option("--scene", options.scene, "Folder of the scene, or its scene_*.json")->required();
-  app.add_option("--output", options.output, "The rawlog to write")->required();
+  app.add_option("-o,--output", options.output, "The rawlog to write")->required();
   app.add_option("--cameras", options.cameras, "Names, as CAMERA_01,CAMERA_05 [all]")
       ->delimiter(',');
   app.add_option("--boxes", options.labels.boxes, "Detections CSV to make from the 3D boxes");
   app.add_option("--truth-objects", options.labels.truth_objects,
                  "Truth table ..._objects.csv to make from them, ..._ego.csv beside");
   app.add_flag("--overwrite", options.overwrite, "Replace existing outputs");
+  app.footer(
+      "Example:\n  dgp2rawlog --scene ddad/000150 -o log.rawlog --truth-objects log_objects.csv");
   return run_tool(app, argc, argv, [&] {
     options.labels.overwrite = options.overwrite;
     dgp::convert(options);

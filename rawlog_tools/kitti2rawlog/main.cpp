@@ -89,7 +89,7 @@ void add_options(CLI::App& app, Options& options) {
       "--sequence", options.sequence,
       "Folder <root>/sequences/NN in the odometry layout, poses in <root>/poses/NN.txt");
   source->require_option(1);
-  app.add_option("--output", options.output, "The log to write")->required();
+  app.add_option("-o,--output", options.output, "The log to write")->required();
   app.add_option("--cameras", options.selection.cameras, "KITTI's camera numbers, as 2 or 0,1,2,3")
       ->delimiter(',')
       ->check(CLI::Range(0, 3))
@@ -124,6 +124,8 @@ int main(int argc, char** argv) {
       "of the OXTS unit, in the odometry layout that of the LiDAR.",
       "kitti2rawlog");
   kitti::add_options(app, options);
+  app.footer(
+      "Example:\n  kitti2rawlog --drive 2011_09_26/2011_09_26_drive_0052_sync -o full.rawlog");
   return run_tool(app, argc, argv, [&] {
     options.labels.overwrite = options.overwrite;
     kitti::convert(options);

@@ -119,8 +119,8 @@ int main(int argc, char** argv) {
   lidar_upsampling::Options options;
   CLI::App app("Keeps every K-th observation of one sensor, and all else untouched.",
                "rawlog-decimate");
-  app.add_option("--input", options.input, "The log to thin")->required();
-  app.add_option("--output", options.output, "The log to write")->required();
+  app.add_option("-i,--input", options.input, "The log to thin")->required();
+  app.add_option("-o,--output", options.output, "The log to write")->required();
   app.add_option("--label", options.label, "The sensor to thin")->required();
   app.add_option("--keep-every", options.keep_every, "K: of K observations one is kept")
       ->required()
@@ -130,5 +130,7 @@ int main(int argc, char** argv) {
   app.add_flag("--overwrite", options.overwrite, "Replace an existing output");
   app.add_flag("--accept-truncated", options.accept_truncated,
                "Of a damaged log, take what comes before the damage");
+  app.footer(
+      "Example:\n  rawlog-decimate -i full.rawlog -o sparse.rawlog --label LIDAR --keep-every 2");
   return lidar_upsampling::run_tool(app, argc, argv, [&] { lidar_upsampling::decimate(options); });
 }

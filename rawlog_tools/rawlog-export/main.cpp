@@ -117,8 +117,8 @@ int main(int argc, char** argv) {
   Options options;
   CLI::App app("Takes virtual or real scans out of a log, as files that other programs read",
                "rawlog-export");
-  app.add_option("--input", options.input, "the log")->required();
-  app.add_option("--output", options.output, "folder for the files and their index.csv")
+  app.add_option("-i,--input", options.input, "the log")->required();
+  app.add_option("-o,--output", options.output, "folder for the files and their index.csv")
       ->required();
   app.add_option("--format", options.format,
                  "PLY, KITTI's velodyne format, or a scene for SceneViewer3D")
@@ -144,6 +144,7 @@ int main(int argc, char** argv) {
     if (options.format != "3Dscene" && (*report || *track))
       throw CLI::ValidationError("--report and --track need --format 3Dscene");
   });
+  app.footer("Example:\n  rawlog-export -i dense.rawlog -o clouds --format ply");
   return lidar_upsampling::run_tool(app, argc, argv,
                                     [&] { lidar_upsampling::exporting::export_scans(options); });
 }

@@ -81,7 +81,8 @@ int main(int argc, char** argv) {
   app.add_option(
       "--truth-objects", options.truth_objects,
       "The simulator's *_objects.csv, with *_ego.csv beside it: tells ghosts from the rest");
-  app.add_option("--input", options.logs, "Logs whose scans are mapped at the reference's poses");
+  app.add_option("-i,--input", options.logs,
+                 "Logs whose scans are mapped at the reference's poses");
   app.add_option("--simplemap", options.simplemaps, "What icp-slam or rbpf-slam wrote, as paths");
   app.add_option("--voxel", options.map.voxel_m, "Side of a voxel, m")
       ->check(CLI::Range(0.01, 10.));
@@ -93,6 +94,8 @@ int main(int argc, char** argv) {
     if (options.logs.empty() && options.simplemaps.empty())
       throw CLI::ValidationError("give something to compare: --input or --simplemap");
   });
+  app.footer(
+      "Example:\n  rawlog-map-compare --reference full.rawlog -i sparse.rawlog dense.rawlog");
   return lidar_upsampling::run_tool(app, argc, argv,
                                     [&] { lidar_upsampling::maps::compare(options); });
 }

@@ -32,7 +32,7 @@ int main(int argc, char** argv) {
   std::uint32_t seed = 0;
   app.add_option("--scenario", scenario_path, "the world, its vehicles and sensors (INI)")
       ->required();
-  app.add_option("--output", job.output, "the log to make (.rawlog)")->required();
+  app.add_option("-o,--output", job.output, "the log to make (.rawlog)")->required();
   app.add_option("--truth", job.truth, "log of a scan and the exact pose at every image's stamp");
   const auto* duration =
       app.add_option("--duration", duration_s, "seconds, instead of the scenario's")
@@ -42,6 +42,9 @@ int main(int argc, char** argv) {
       "draws another situation of the same kind: places, speeds, colours, light, noise, street, as "
       "far as the scenario's [variation] lets; without it, it is exactly as written");
   app.add_flag("--overwrite", job.overwrite, "replace existing files");
+  app.footer(
+      "Example:\n  rawlog-simulate --scenario demo.ini -o sim.rawlog --truth truth.rawlog --seed "
+      "7");
   return run_tool(app, argc, argv, [&] {
     check_files({{"--scenario", scenario_path}},
                 {{"--output", job.output}, {"--truth", job.truth}});
