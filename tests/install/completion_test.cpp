@@ -29,9 +29,9 @@ using Words = std::vector<std::string>;
 TEST(Completion, of_every_tool_knows_each_option_that_its_help_names) {
   for (const std::string& tool : tool_names()) {
     const Words offered = completed(tool, "--");
-    const Words named = words_of(
-        text_of("(man --local-file " BUILD_FOLDER "/man/" + tool +
-                ".1.gz | grep -oE '^ +(-[a-z], ?)?--[a-z0-9-]+' | sed 's/.*--/--/' | sort --unique)"));
+    const Words named = words_of(text_of(
+        "(man --local-file " BUILD_FOLDER "/man/" + tool +
+        ".1.gz | grep -oE '^ +(-[a-z], ?)?--[a-z0-9-]+' | sed 's/.*--/--/' | sort --unique)"));
     EXPECT_GE(named.size(), 4) << tool;
     for (const std::string& option : named)
       EXPECT_EQ(std::count(offered.begin(), offered.end(), option), 1) << tool << ' ' << option;
