@@ -51,6 +51,7 @@ Film::Film(std::string path) : path_(std::move(path)) {
 void Film::real_scan(const LidarScan& scan) {
   if (!real_) view_ = BirdView::for_scan(scan, kPanel_px);
   real_ = scan;
+  as_taken_.release();
 }
 
 void Film::image(const CameraImage& image) {
@@ -88,9 +89,12 @@ void Film::virtual_scan(const VirtualScan& scan) {
 
 void Film::add(Stamp stamp, const BirdScene& scene, const cv::Mat& camera) {
   const std::vector<Camera> cameras{images_.front().camera};
-  BirdScene as_taken = scene_of(*real_);
-  as_taken.title = "as the sensor took it";
-  const cv::Mat left = from_above(as_taken, nullptr, {}, cameras, real_->T_vehicle_lidar, view_);
+  if (as_taken_.empty()) {
+    BirdScene scene_as_taken = scene_of(*real_);
+    scene_as_taken.title = "as the sensor took it";
+    as_taken_ = from_above(scene_as_taken, nullptr, {}, cameras, real_->T_vehicle_lidar, view_);
+  }
+  const cv::Mat& left = as_taken_;
   const cv::Mat right = from_above(scene, nullptr, trails_, cameras, real_->T_vehicle_lidar, view_);
   const cv::Mat above = fitted(camera);
   cv::Mat picture((above.rows + left.rows + 8) / 2 * 2, kWidth_px, CV_8UC3, cv::Scalar::all(0));

@@ -46,6 +46,7 @@ class Film {
   std::optional<Frame> waiting_;  ///< the first, until the second tells the rate
   std::deque<CameraImage> images_;
   std::optional<LidarScan> real_;
+  cv::Mat as_taken_;  ///< the real scan from above; empty: not drawn yet
   Stamp last_key_;
   Trails trails_;
   BirdView view_;  ///< by the first scan
