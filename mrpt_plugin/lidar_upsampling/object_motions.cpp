@@ -98,9 +98,13 @@ ObjectMotion make_motion(const MotionAnswer& answer, const ScanObject& object,
 
 MotionAnswer answer_for(const ObjectTrack& track, const AllSights& sights,
                         const MotionQuestion& question, const Config& config) {
-  if (!config.object_motion.world_tracks)
-    return answer_of_picture(track, sights.alone, question, config.object_motion.picture);
-  return estimate_motion(track, sights.image, question, sights.starts, config.object_tracks);
+  if (track.settled) return *track.settled;
+  MotionAnswer answer =
+      config.object_motion.world_tracks
+          ? estimate_motion(track, sights.image, question, sights.starts, config.object_tracks)
+          : answer_of_picture(track, sights.alone, question, config.object_motion.picture);
+  answer.num_found = static_cast<int>(sights.image.observations.size());
+  return answer;
 }
 
 }  // namespace
@@ -120,10 +124,10 @@ std::vector<ObjectMotion> estimate_motions(const std::vector<ImageResult>& group
         shifted(track.stamp, dt),  newest.ego.T_to_from,   newest.ego.covariance, object.centroid,
         key.T_rest_lidar.linear(), newest.camera.model.fx, sights.num_followed};
     const MotionAnswer answer = answer_for(track, sights, question, config);
-    note_answer(track, answer);
+    if (!track.settled) note_answer(track, answer);
     ObjectMotion& motion = motions[i];
     motion = make_motion(answer, object, newest.ego.T_to_from, dt);
-    motion.num_tracked = static_cast<int>(sights.image.observations.size());
+    motion.num_tracked = answer.num_found;
     motion.status = status_of(answer, motion.num_tracked, config);
     motion.track_id = track.id;
     const Appearance on_picture = shown(group, key.scan, motion);

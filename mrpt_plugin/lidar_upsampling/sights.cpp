@@ -98,6 +98,7 @@ std::vector<ObjectOnPicture> follow_objects(CameraView& view, const Picture& pic
   std::vector<std::vector<Pose>> ways(count);
   for (std::size_t i = 0; i < count; ++i) {
     const ScanObject& object = objects.object(i);
+    if (objects.track(i).settled) continue;
     sights[i].starts = motions_to_try(objects.track(i), object, key.T_rest_lidar.linear(),
                                       picture.instant, view.camera.model.fx, config);
     for (const Twist& motion : sights[i].starts)
@@ -116,7 +117,7 @@ void note_sights(std::vector<ObjectOnPicture>& sights, const CameraView& view,
   const Pose T_camera_lidar_k = T_camera_lidar_of(view.camera, scan.T_vehicle_lidar) * ego;
   const double dt = seconds_between(scan.stamp, picture.instant);
   for (const int owner : view.points.owner)
-    if (owner >= 0) ++sights[owner].num_followed;
+    if (owner >= 0 && !objects.track(owner).settled) ++sights[owner].num_followed;
   tbb::parallel_for(std::size_t{0}, sights.size(), [&](std::size_t i) {
     ObjectOnPicture& sight = sights[i];
     if (sight.num_followed == 0) return;

@@ -26,7 +26,7 @@ struct Start {
   std::vector<cv::Point2f> guesses;
 };
 
-/// One per way.
+/// One per way; of what is settled there is none.
 std::vector<Start> starts_of(const CameraView& view, const Pose& T_camera_t_lidar_k,
                              const std::vector<std::vector<Pose>>& ways) {
   const PointTracks& points = view.points;
@@ -46,11 +46,12 @@ std::vector<Start> starts_of(const CameraView& view, const Pose& T_camera_t_lida
 
 /// Points of the likeliest ways go on from where they were found last.
 void start_where_last_found(Start& likeliest, PointTracks& points) {
-  const std::vector<cv::Point2f> expected = likeliest.guesses;
-  for (std::size_t i = 0; i < points.size(); ++i)
-    if (points.found[i] != 0)
-      likeliest.guesses[i] = points.last_px[i] + (expected[i] - points.predicted_px[i]);
-  points.predicted_px = expected;
+  for (std::size_t j = 0; j < likeliest.which.size(); ++j) {
+    const std::size_t i = likeliest.which[j];
+    const cv::Point2f expected = likeliest.guesses[j];
+    if (points.found[i] != 0) likeliest.guesses[j] += points.last_px[i] - points.predicted_px[i];
+    points.predicted_px[i] = expected;
+  }
 }
 
 void forget(PointTracks& points, const std::vector<std::size_t>& which) {

@@ -147,6 +147,20 @@ TEST(Hypotheses, what_a_picture_tells_is_kept_and_what_scans_to_come_tell_is_not
   EXPECT_NEAR(track.latest_log_odds, std::max(-kMostLogOdds, 1 + answer.log_ratio), 1e-9);
 }
 
+TEST(Hypotheses, what_scans_and_picture_hold_for_parked_is_settled_until_its_next_sight) {
+  const auto is_settled = [](double log_odds, double moved_m, std::size_t num_points) {
+    ObjectTrack track = known_track(0, log_odds);
+    const Twist motion = to_the_side(moved_m);
+    ImageFactor image = picture_of(motion);
+    image.observations.resize(num_points);
+    note_answer(track, estimate_motion(track, image, question_after(0.1, 8), {motion}, {}));
+    return track.settled != nullptr;
+  };
+  EXPECT_TRUE(is_settled(-kMostLogOdds, 0, 8));
+  EXPECT_FALSE(is_settled(-2, 0, 8)) << "it may yet be another";
+  EXPECT_FALSE(is_settled(-kMostLogOdds, 0.5, 60)) << "the picture says otherwise";
+}
+
 TEST(Hypotheses, what_may_as_well_be_parked_stays_where_no_camera_sees_it) {
   EXPECT_FALSE(estimate_motion(known_track(10, 0), {}, question_after(0.1), {}, {}).moves);
 }

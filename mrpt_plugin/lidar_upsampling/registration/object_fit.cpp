@@ -3,6 +3,7 @@
 #include "lidar_upsampling/registration/object_fit.h"
 
 #include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
@@ -155,6 +156,7 @@ Sampling sampling_under(const ObjectFit& fit, const Pose& T_target_object) {
   const Eigen::Isometry3f T = T_target_object.cast<float>();
   const auto reach = static_cast<float>(std::pow(fit.options.overlap_distance_m, 2));
   Eigen::Matrix2d all = 1e-9 * Eigen::Matrix2d::Identity(), along = Eigen::Matrix2d::Zero();
+  Eigen::Matrix2d faces = Eigen::Matrix2d::Zero();
   std::vector<float> spacings;
   for (const Eigen::Vector3f& point : fit.points) {
     const Eigen::Vector3f place = T * point;
@@ -167,9 +169,11 @@ Sampling sampling_under(const ObjectFit& fit, const Pose& T_target_object) {
     const double weight = normal.isZero() ? 1 : fit.options.point_weight;
     along += weight * (Eigen::Matrix2d::Identity() - across);
     all += weight * (Eigen::Matrix2d::Identity() - across) + across;
+    faces += across;
   }
   if (spacings.empty()) return {};
-  return {median(std::move(spacings)), all.inverse() * along};
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(faces);
+  return {median(std::move(spacings)), all.inverse() * along, solver.eigenvectors().col(0)};
 }
 
 double overlap_of(const ObjectFit& fit, const Pose& T_target_object) {
@@ -213,7 +217,7 @@ Fitted converge(const ObjectFit& problem, const Pose& guess, double stop, double
     if (scale <= problem.options.kernel_m && step.norm() < stop) {
       break;
     }
-    scale = std::max(problem.options.kernel_m, 0.75 * scale);
+    scale = std::max(problem.options.kernel_m, 0.5 * scale);
   }
   return {T, score_by_matches(problem, T, matches)};
 }

@@ -44,6 +44,7 @@ struct Sampling {
   Eigen::Matrix2d pull =
       Eigen::Matrix2d::Zero();  ///< level: of a common shift of all matches along their surfaces,
                                 ///< what the answer follows
+  Eigen::Vector2d loosest = Eigen::Vector2d::UnitX();  ///< level: the way it is held least
 };
 
 [[nodiscard]] Sampling sampling_under(const ObjectFit& fit, const Pose& T_target_object);

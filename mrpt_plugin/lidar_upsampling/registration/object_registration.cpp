@@ -47,22 +47,20 @@ Eigen::Vector2d deviation_of(const Eigen::Vector2d& astray, double shift_m) {
   return astray / std::max(0.1, 1 - astray.norm() / shift_m);
 }
 
-/// Fits the object again from starts around the answer. One that comes back part of the way
-/// speaks of a weak pull there, one that stays of none, and what has gone out of sight cannot come
-/// back. Points lock into one another's pattern: starts are more than half a step of it away, and
-/// within a step they may lie anyhow.
+/// Fits the object again from starts beside the answer, where it is held least. One that comes back
+/// part of the way speaks of a weak pull there, one that stays of none, and what has gone out of
+/// sight cannot come back. Points lock into one another's pattern: starts are more than half a step
+/// of it away, and within a step they may lie anyhow.
 Ambiguity ambiguity_of(const ObjectFit& problem, const Fitted& best) {
   constexpr double kShift = 0.2;
   const Sampling sampling = sampling_under(problem, best.T);
   const double shift_m = std::clamp(0.6 * sampling.spacing_m, kShift, problem.options.max_shift_m);
   const double stop = 0.01 * shift_m;  // finer would tell nothing of who comes back
-  const std::array<std::array<double, 2>, 4> shifts{
-      {{shift_m, 0}, {-shift_m, 0}, {0, shift_m}, {0, -shift_m}}};
   Ambiguity result;
-  for (const auto& shift : shifts) {
-    const Pose start = shifted_by(best.T, shift[0], shift[1]);
-    const Pose further = shifted_by(start, shift[0], shift[1]);  // shadows' borders are not sharp
-    Eigen::Vector2d astray(shift[0], shift[1]);
+  for (const double side : {shift_m, -shift_m}) {
+    Eigen::Vector2d astray = side * sampling.loosest;
+    const Pose start = shifted_by(best.T, astray.x(), astray.y());
+    const Pose further = shifted_by(start, astray.x(), astray.y());  // shadows are not sharp
     if (!may_hide_at(problem, start, best) && !may_hide_at(problem, further, best)) {
       const Fitted again = converge(problem, start, stop);
       if (again.score >= 1.15 * best.score + 0.005) continue;
@@ -70,7 +68,7 @@ Ambiguity ambiguity_of(const ObjectFit& problem, const Fitted& best) {
     }
     result.spread_m = std::max(result.spread_m, astray.norm());
     const Eigen::Vector2d deviation = deviation_of(astray, shift_m);
-    result.slack += 0.5 * deviation * deviation.transpose();  // every axis is tried both ways
+    result.slack += 0.5 * deviation * deviation.transpose();  // it is tried both ways
   }
   const double sq_phase = sampling.spacing_m * sampling.spacing_m / 12;
   if (std::isfinite(sq_phase)) result.slack += sq_phase * sampling.pull * sampling.pull.transpose();

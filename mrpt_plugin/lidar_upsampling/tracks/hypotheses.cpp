@@ -278,6 +278,8 @@ MotionAnswer estimate_motion(const ObjectTrack& track, const ImageFactor& image,
 
 void note_answer(ObjectTrack& track, const MotionAnswer& answer) {
   if (!answer.is_seen) return;
+  if (!answer.moves && answer.log_odds <= -kMostLogOdds && answer.log_ratio <= 0)
+    track.settled = std::make_shared<const MotionAnswer>(answer);
   track.latest = answer.state;
   track.latest_log_odds =
       std::clamp(track.log_odds + answer.log_ratio, -kMostLogOdds, kMostLogOdds);

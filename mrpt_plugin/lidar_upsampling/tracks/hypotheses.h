@@ -28,7 +28,8 @@ struct MotionAnswer {
   double log_ratio = 0;  ///< of moving, by the picture alone
   MotionFit moving;      ///< as expected, where the picture was not heard
   MotionFit parked;
-  TrackState state;  ///< at the instant, if it moves; without what scans to come tell
+  TrackState state;   ///< at the instant, if it moves; without what scans to come tell
+  int num_found = 0;  ///< points of the object on the picture
 };
 
 /// @brief The motion that a state tells, in the axes of the lidar frame at k.
@@ -46,7 +47,8 @@ struct MotionAnswer {
                                            const TrackOptions& options);
 
 /// @brief What the picture tells is known from here on. What scans to come tell is not: they will
-/// be asked in their turn.
+/// be asked in their turn. What is parked by odds as clear as they get, to which the picture
+/// agrees, is settled.
 void note_answer(ObjectTrack& track, const MotionAnswer& answer);
 
 }  // namespace lidar_upsampling

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <map>
 
+#include "lidar_upsampling/registration/voxel_grid.h"
 #include "lidar_upsampling/tracks/log_odds.h"
 #include "lidar_upsampling/tracks/pieces.h"
 #include "lidar_upsampling/tracks/scan_factor.h"
@@ -42,6 +43,7 @@ double heading_of(const TrackedScan& scan) {
 void see_anew(ObjectTrack& track, const ScanObject& object, std::shared_ptr<const Surface> surface,
               const TrackedScan& scan) {
   track.ahead.reset();
+  track.settled.reset();
   track.latest = track.state;
   track.latest_log_odds = track.log_odds;
   track.external_id = object.external_id;
@@ -98,10 +100,12 @@ std::vector<int> take_up_scan(TrackStore& store, std::vector<ScanObject>& object
   tracks.erase(std::remove_if(tracks.begin(), tracks.end(), lost), tracks.end());
   std::vector<int> track_of = associate(tracks, objects, scan, options);
   join_pieces(store, scan, options, objects, track_of);
+  constexpr double kFine_m = 0.1;  // nearer neighbours tell the noise of their ranges
   const std::size_t num_known = tracks.size();
   std::vector<std::shared_ptr<const Surface>> surfaces(objects.size());
   tbb::parallel_for(std::size_t{0}, objects.size(), [&](std::size_t i) {
-    surfaces[i] = std::make_shared<const Surface>(points_at(scan.scan, objects[i].points));
+    surfaces[i] = std::make_shared<const Surface>(
+        group_by_voxel(points_at(scan.scan, objects[i].points), kFine_m).means);
     if (track_of[i] < 0) return;
     ObjectTrack& track = tracks[track_of[i]];
     const ScanLesson lesson = learn_from_scans(track, objects[i], *surfaces[i], scan, options);
@@ -154,6 +158,7 @@ void go_on(ObjectTrack& track, TrackState now, const Pose& T_rest_lidar,
   track.beginnings.clear();
   track.passage.reset();
   track.ahead.reset();
+  track.settled.reset();
 }
 
 std::vector<Course> courses_of(const ObjectTrack& track, const TrackOptions& options) {

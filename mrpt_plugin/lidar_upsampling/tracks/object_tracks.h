@@ -15,6 +15,8 @@
 
 namespace lidar_upsampling {
 
+struct MotionAnswer;
+
 /// What is assumed of objects, all in one place. Without a factor, the others decide alone.
 struct TrackOptions {
   bool scan_factor = true;    ///< registration between real scans
@@ -88,6 +90,8 @@ struct ObjectTrack {
   std::vector<Course> beginnings;  ///< of a new one, at `stamp`, the likeliest first
   std::optional<Passage> passage;  ///< from the sight before to the last one
   std::optional<Ahead> ahead;      ///< where scans to come are known and show it
+  std::shared_ptr<const MotionAnswer> settled;  ///< parked beyond doubt, as an image since the last
+                                                ///< sight told: until the next sight nobody asks
 
   /// All that is known before the image is looked at.
   [[nodiscard]] TrackState expected_at(Stamp instant, const MotionNoise& noise) const;
