@@ -167,6 +167,8 @@ void LidarUpsampler::process(CameraView& view, const Picture& picture, Effort ef
     }
     const Stopwatch watch(timing_, "consensus");
     note_sights(result.objects, view, picture, objects, result.ego.T_to_from, config_);
+  } else {
+    ++num_hurried_;
   }
   group_.push_back(std::move(result));
 }

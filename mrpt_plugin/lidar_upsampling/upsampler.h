@@ -74,6 +74,9 @@ class LidarUpsampler {
   /// @return the virtual scan that still waits for other cameras, if any.
   std::optional<VirtualScan> flush();
 
+  /// Images so far on which objects would have been followed, had there been time.
+  [[nodiscard]] std::size_t num_hurried() const { return num_hurried_; }
+
  private:
   [[nodiscard]] CameraView& view_of(const Camera& camera);
   [[nodiscard]] bool is_due(Stamp instant) const;
@@ -109,7 +112,7 @@ class LidarUpsampler {
   PoseNoise pose_noise_;           ///< of given poses, where they are not taken at their word
   std::vector<StageTime> timing_;  ///< since the last virtual scan
   std::vector<Stamp> expected_scans_;
-  std::size_t expected_cameras_ = 0;
+  std::size_t expected_cameras_ = 0, num_hurried_ = 0;
   double scan_period_s_ = 0;
 };
 

@@ -35,6 +35,7 @@ class LiveUpsampling : public Upsampling {
 
   [[nodiscard]] std::vector<Emitted> feed(const Arrived& arrived) override;
   [[nodiscard]] std::vector<Emitted> finish() override;
+  [[nodiscard]] std::size_t num_hurried() const override { return upsampler_.num_hurried(); }
 
  private:
   [[nodiscard]] std::optional<VirtualScan> work_on(const Arrived& arrived);

@@ -92,7 +92,6 @@ void Pipeline::count(const Arrived& arrived) {
   if (arrived.role == Role::scan) ++statistics_.num_scans;
   if (arrived.role == Role::image) ++statistics_.num_images;
   const bool is_image = arrived.role == Role::image;
-  if (is_image && arrived.is_hurried && !arrived.is_late) ++statistics_.num_hurried;
   if (arrived.is_late && arrived.role == Role::scan) ++statistics_.num_late_scans;
   if (arrived.is_late && is_image) ++statistics_.num_late_images;
   const Stamp stamp = arrived.observation->timestamp;
@@ -102,6 +101,7 @@ void Pipeline::count(const Arrived& arrived) {
 
 void Pipeline::put_out(std::vector<Emitted> emitted) {
   const std::lock_guard<std::mutex> lock(mutex_);
+  statistics_.num_hurried = upsampling_->num_hurried();
   for (Emitted& one : emitted) {
     if (one.image_arrival) {
       ++statistics_.num_virtual_scans;

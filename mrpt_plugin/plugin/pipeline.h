@@ -36,6 +36,8 @@ class Upsampling {
   /// @return what is ready, in the order it is to go out.
   [[nodiscard]] virtual std::vector<Emitted> feed(const Arrived& arrived) = 0;
   [[nodiscard]] virtual std::vector<Emitted> finish() = 0;
+  /// Images so far on which, being hurried, it did less. Others need no more anyhow.
+  [[nodiscard]] virtual std::size_t num_hurried() const = 0;
 };
 
 /// @brief From the sources' threads through the upsampler's own thread to the sensor's.

@@ -34,6 +34,7 @@ class SlowUpsampling : public Upsampling {
     if (arrived.observation->sensorLabel == "BROKEN") throw std::runtime_error("it is broken");
     std::vector<Emitted> out{{arrived.observation, {}}};
     if (arrived.role == Role::image && !arrived.is_late) {
+      num_hurried_ += arrived.is_hurried ? 1 : 0;
       auto scan = mrpt::obs::CObservationComment::Create();
       scan->sensorLabel = "VIRTUAL";
       scan->timestamp = arrived.observation->timestamp;
@@ -42,10 +43,12 @@ class SlowUpsampling : public Upsampling {
     return out;
   }
   std::vector<Emitted> finish() override { return {{observed("LAST", 1000), {}}}; }
+  [[nodiscard]] std::size_t num_hurried() const override { return num_hurried_; }
 
  private:
   std::shared_future<void> go_on_;
   std::promise<void>* is_busy_;
+  std::size_t num_hurried_ = 0;
 };
 
 struct LiveRun {

@@ -156,9 +156,10 @@ TEST(LidarUpsampler, in_a_hurry_objects_go_on_as_they_were_seen_to_move) {
   StreetRun street;
   LidarUpsampler upsampler{moving_points()};
   constexpr double kLastImages_s = 0.4;
-  street.hurried_from = shifted(street_begin(), kLastImages_s + 0.001);
+  street.hurried_from = shifted(street_begin(), kLastImages_s - 0.001);
   const auto scans = street.run(upsampler);
   ASSERT_EQ(scans.size(), 10U);
+  EXPECT_EQ(upsampler.num_hurried(), 2U) << "on the image beside a scan nothing is followed anyhow";
   EXPECT_TRUE(moving_objects(scans.back()).empty());
   EXPECT_GE(std::count_if(scans.back().objects.begin(), scans.back().objects.end(),
                           [](const ObjectMotion& object) {
