@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <random>
 
 namespace lidar_upsampling {
@@ -29,6 +30,52 @@ TEST(PointIndex, finds_nothing_beyond_the_limit) {
   index.within({0.4F, 0, 0}, 0.2F, found);
   ASSERT_EQ(found.size(), 1U);
   EXPECT_EQ(found.front().index, 0);
+}
+
+TEST(PointIndex, keeps_to_the_limit_among_many_points_in_every_search) {
+  constexpr float kLimit_m2 = 0.02F;
+  std::mt19937 random(2);
+  std::vector<Eigen::Vector3f> points;
+  for (int i = 0; i < 1000; ++i) points.push_back(any_place(random, 1));
+  const PointIndex index(points);
+  const Surface surface(points);
+  int with_one = 0;
+  for (int i = 0; i < 500; ++i) {
+    const Eigen::Vector3f place = any_place(random, 1.2F);
+    const auto by_hand = std::min_element(points.begin(), points.end(), [&](auto& a, auto& b) {
+      return (a - place).squaredNorm() < (b - place).squaredNorm();
+    });
+    const bool is_near = (*by_hand - place).squaredNorm() < kLimit_m2;
+    const int expected = is_near ? static_cast<int>(by_hand - points.begin()) : -1;
+    with_one += is_near ? 1 : 0;
+    ASSERT_EQ(index.nearest(place, kLimit_m2).index, expected);
+    ASSERT_EQ(index.nearest_of_all(place, kLimit_m2).first.index, expected);
+    ASSERT_EQ(surface.nearest(place, kLimit_m2).index, expected);
+    ASSERT_EQ(surface.nearest_of_all(place, kLimit_m2).first.index, expected);
+    std::vector<PointIndex::Neighbor> found;
+    index.within(place, kLimit_m2, found);
+    ASSERT_EQ(found.empty(), !is_near);
+    for (const auto& neighbor : found) ASSERT_LT(neighbor.sq_distance, kLimit_m2);
+  }
+  EXPECT_GT(with_one, 50);
+  EXPECT_LT(with_one, 450);
+}
+
+TEST(PointIndex, the_k_nearest_are_those_of_a_search_by_hand) {
+  std::mt19937 random(3);
+  std::vector<Eigen::Vector3f> points;
+  for (int i = 0; i < 300; ++i) points.push_back(any_place(random, 1));
+  const PointIndex index(points);
+  for (int i = 0; i < 100; ++i) {
+    const Eigen::Vector3f place = any_place(random, 1.2F);
+    std::vector<float> by_hand;
+    for (const auto& point : points) by_hand.push_back((point - place).squaredNorm());
+    std::sort(by_hand.begin(), by_hand.end());
+    std::vector<PointIndex::Neighbor> found;
+    index.nearest(place, 7, found);
+    ASSERT_EQ(found.size(), 7U);
+    for (std::size_t k = 0; k < found.size(); ++k) ASSERT_EQ(found[k].sq_distance, by_hand[k]);
+  }
 }
 
 TEST(PointIndex, tells_how_far_all_others_are_at_least) {

@@ -9,12 +9,17 @@ namespace lidar_upsampling {
 
 namespace {
 
-// nanoflann asks these where to look; its own ones allocate for each query, or take a tenth more
-// time for one neighbour.
-class NearestOne {
- public:
+// What nanoflann asks of a result besides its own business, from 1.5 on.
+struct Result {
   using DistanceType = float;
+  using IndexType = std::uint32_t;
+  void sort() {}
+};
 
+// nanoflann asks these where to look; its own ones allocate for each query, or take a tenth more
+// time for one neighbour, and how they take a limit differs from release to release.
+class NearestOne : public Result {
+ public:
   explicit NearestOne(float max_sq_distance) : nearest_{-1, max_sq_distance} {}
 
   [[nodiscard]] const PointIndex::Neighbor& nearest() const { return nearest_; }
@@ -30,10 +35,8 @@ class NearestOne {
   PointIndex::Neighbor nearest_;
 };
 
-class NearestTwo {
+class NearestTwo : public Result {
  public:
-  using DistanceType = float;
-
   explicit NearestTwo(float max_sq_distance) : found_{{-1, max_sq_distance}, max_sq_distance} {}
 
   [[nodiscard]] const PointIndex::Nearest& found() const { return found_; }
@@ -54,10 +57,8 @@ class NearestTwo {
   PointIndex::Nearest found_;
 };
 
-class NearestFew {
+class NearestFew : public Result {
  public:
-  using DistanceType = float;
-
   NearestFew(std::size_t count, std::vector<PointIndex::Neighbor>& found)
       : count_(count), found_(found) {
     found_.clear();
@@ -82,10 +83,8 @@ class NearestFew {
   std::vector<PointIndex::Neighbor>& found_;
 };
 
-class AllWithin {
+class AllWithin : public Result {
  public:
-  using DistanceType = float;
-
   AllWithin(float max_sq_distance, std::vector<PointIndex::Neighbor>& found)
       : max_sq_distance_(max_sq_distance), found_(found) {
     found_.clear();
