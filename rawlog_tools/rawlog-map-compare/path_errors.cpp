@@ -2,13 +2,12 @@
 // Copyright (c) 2026, the lidar_upsampling authors
 #include "path_errors.h"
 
-#include <mrpt/maps/CSimpleMap.h>
-
 #include <cmath>
 #include <optional>
 #include <stdexcept>
 
 #include "known_scans.h"
+#include "lidar_upsampling/compat/mrpt.h"
 #include "lidar_upsampling/io/carriers.h"
 #include "lidar_upsampling/io/images.h"
 #include "lidar_upsampling/units.h"
@@ -34,15 +33,13 @@ PathErrors errors_of_path(const std::string& path, const Trajectory& T_world_veh
   std::optional<Pose> T_world_map;
   Eigen::Vector3d last_place = Eigen::Vector3d::Zero();
   for (std::size_t i = 0; i < map.size(); ++i) {
-    mrpt::poses::CPose3DPDF::Ptr pose;
-    mrpt::obs::CSensoryFrame::Ptr frame;
-    map.get(i, pose, frame);
-    const auto scan = scan_of(*frame);
+    const compat::Keyframe keyframe = compat::keyframe_of(map, i);
+    const auto scan = scan_of(*keyframe.frame);
     if (!scan) continue;
     ++(is_virtual(scan->sensorLabel) ? errors.num_virtual : errors.num_real);
     const auto truth = T_world_vehicle.at(scan->timestamp);
     if (is_virtual(scan->sensorLabel) || !truth) continue;
-    const Pose T_map_vehicle = from_mrpt(pose->getMeanVal());
+    const Pose T_map_vehicle = from_mrpt(keyframe.pose->getMeanVal());
     const Eigen::Vector3d place = truth->T_world_vehicle.translation();
     if (!T_world_map) {
       T_world_map = truth->T_world_vehicle * T_map_vehicle.inverse();

@@ -4,10 +4,10 @@
 
 #include <mrpt/obs/CObservation3DRangeScan.h>
 #include <mrpt/obs/CObservationPointCloud.h>
-#include <mrpt/version.h>
 
 #include <filesystem>
 
+#include "lidar_upsampling/compat/mrpt.h"
 #include "lidar_upsampling/io/carriers.h"
 #include "lidar_upsampling/io/images.h"
 #include "rawlog-map-compare/voxel_set.h"
@@ -36,7 +36,7 @@ MappedScan mapped_scan(mrpt::obs::CObservation& observation, const Pose& T_map_v
 
 }  // namespace
 
-bool maps_misplace_point_clouds() { return MRPT_VERSION < 0x020b03; }
+bool maps_misplace_point_clouds() { return compat::kMapsMisplacePointClouds; }
 
 std::vector<MappedScan> scans_in_simplemap(const std::string& path) {
   std::vector<MappedScan> scans;
@@ -46,11 +46,9 @@ std::vector<MappedScan> scans_in_simplemap(const std::string& path) {
     return scans;
   }
   for (std::size_t i = 0; i < map.size(); ++i) {
-    mrpt::poses::CPose3DPDF::Ptr pose;
-    mrpt::obs::CSensoryFrame::Ptr frame;
-    map.get(i, pose, frame);
-    const Pose T_map_vehicle = from_mrpt(pose->getMeanVal());
-    for (const auto& observation : *frame)
+    const compat::Keyframe keyframe = compat::keyframe_of(map, i);
+    const Pose T_map_vehicle = from_mrpt(keyframe.pose->getMeanVal());
+    for (const auto& observation : *keyframe.frame)
       if (is_lidar_scan(*observation)) scans.push_back(mapped_scan(*observation, T_map_vehicle));
   }
   return scans;

@@ -172,9 +172,9 @@ void draw_points(const LidarScan& scan, const std::vector<ObjectBox>& boxes, Dra
   lidar_frame.insert(cloud);
 }
 
-mrpt::opengl::COpenGLScene::Ptr scene_around_vehicle(const CSetOfObjects::Ptr& lidar_frame,
-                                                     const Pose& T_vehicle_lidar) {
-  auto scene = mrpt::opengl::COpenGLScene::Create();
+compat::Scene::Ptr scene_around_vehicle(const CSetOfObjects::Ptr& lidar_frame,
+                                        const Pose& T_vehicle_lidar) {
+  auto scene = compat::Scene::Create();
   auto grid = mrpt::opengl::CGridPlaneXY::Create(-20.F, 80.F, -40.F, 40.F, 0.F, 10.F);
   grid->setColor_u8(TColor(90, 90, 90));
   scene->insert(grid);

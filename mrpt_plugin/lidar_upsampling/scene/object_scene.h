@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "lidar_upsampling/compat/mrpt.h"
 #include "lidar_upsampling/types.h"
 
 namespace lidar_upsampling {
@@ -44,7 +45,7 @@ void draw_points(const LidarScan& scan, const std::vector<ObjectBox>& boxes, Dra
 
 /// @brief A scene in the vehicle frame, with a grid on the vehicle's ground and the vehicle's axes.
 /// @param lidar_frame what lies in the LiDAR's frame.
-[[nodiscard]] mrpt::opengl::COpenGLScene::Ptr scene_around_vehicle(
+[[nodiscard]] compat::Scene::Ptr scene_around_vehicle(
     const mrpt::opengl::CSetOfObjects::Ptr& lidar_frame, const Pose& T_vehicle_lidar);
 
 /// @brief The objects of a virtual scan and their points as a stock observation, which
