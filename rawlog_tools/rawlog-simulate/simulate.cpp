@@ -2,7 +2,6 @@
 // Copyright (c) 2026, the lidar_upsampling authors
 #include "simulate.h"
 
-#include <mrpt/obs/CObservationVelodyneScan.h>
 #include <mrpt/obs/CSensoryFrame.h>
 
 #include <algorithm>
@@ -104,9 +103,9 @@ std::string beside(const std::string& log, const std::string& what) {
   return path.replace_extension().string() + what;
 }
 
-// Velodyne scans are the only ones that keep each point's time.
+// Velodyne scans are the only ones that keep each point's time in every MRPT.
 Carrier carrier_of(const Scenario& scenario) {
-  return scenario.carrier == "velodyne" ? Carrier::same : carrier_from_string(scenario.carrier);
+  return scenario.carrier == "velodyne" ? Carrier::velodyne : carrier_from_string(scenario.carrier);
 }
 
 /// All that is written, and how.
@@ -205,7 +204,7 @@ class Simulation {
 
   [[nodiscard]] mrpt::obs::CObservation::Ptr observation_of(const LidarScan& scan) const {
     if (scenario_.lidar.depth_camera) return depth_observation(scan, scenario_.lidar);
-    return observation_from_scan(scan, carrier_, &velodyne_);
+    return observation_from_scan(scan, carrier_);
   }
 
   [[nodiscard]] SimulatedScan snapshot(Stamp stamp) const {
@@ -217,7 +216,6 @@ class Simulation {
   Scenario scenario_;
   World world_;
   Carrier carrier_;
-  mrpt::obs::CObservationVelodyneScan velodyne_;  // what Carrier::same is like
   RawlogWriter log_;
   LogFormatter formatter_;
   TextFile objects_, ego_, boxes_;

@@ -5,12 +5,15 @@
 #include <gtest/gtest.h>
 #include <mrpt/obs/CObservation3DRangeScan.h>
 #include <mrpt/obs/CObservationPointCloud.h>
+#include <mrpt/obs/CObservationRotatingScan.h>
 #include <mrpt/obs/CObservationVelodyneScan.h>
-#include <mrpt/version.h>
 
 #include <cmath>
 #include <limits>
 #include <random>
+
+#include "lidar_upsampling/compat/mrpt.h"
+#include "lidar_upsampling/compat/point_fields.h"
 
 namespace lidar_upsampling {
 namespace {
@@ -18,6 +21,7 @@ namespace {
 using mrpt::obs::CObservation;
 using mrpt::obs::CObservation3DRangeScan;
 using mrpt::obs::CObservationPointCloud;
+using mrpt::obs::CObservationRotatingScan;
 using mrpt::obs::CObservationVelodyneScan;
 
 constexpr float kHalfStep = 0.5F / 255.F;  // of an 8-bit intensity
@@ -166,6 +170,23 @@ TEST(Carriers, a_point_cloud_keeps_points_and_exact_intensity) {
   expect_same_intensity(read, scan, 0.F);
 }
 
+TEST(Carriers, a_point_cloud_keeps_rings_times_and_columns_where_this_mrpt_has_them) {
+  const LidarScan scan = full_scan();
+  const LidarScan read = round_trip(scan, Carrier::point_cloud);
+  if (compat::maps_with_rings_since() == nullptr) {
+    EXPECT_TRUE(read.ring.empty());
+    return;
+  }
+  EXPECT_EQ(read.ring, scan.ring);
+  EXPECT_EQ(read.time_s, scan.time_s);
+  EXPECT_EQ(read.num_rings, 17) << "as far as they have points";
+  ASSERT_EQ(read.column.size(), scan.size());
+  for (std::size_t i = 0; i < scan.size(); ++i) {
+    if (scan.points[i].isZero()) continue;
+    EXPECT_EQ(read.column[i], scan.column[i]);
+  }
+}
+
 TEST(Carriers, same_follows_the_real_scans) {
   const LidarScan scan = full_scan();
   const CObservationPointCloud cloud;
@@ -175,24 +196,40 @@ TEST(Carriers, same_follows_the_real_scans) {
   };
   EXPECT_TRUE(is_cloud(Carrier::same, &cloud));
   EXPECT_FALSE(is_cloud(Carrier::same, &depth));
-#if MRPT_VERSION < 0x020b03
-  EXPECT_FALSE(is_cloud(Carrier::automatic, &cloud));
   EXPECT_FALSE(is_cloud(Carrier::same, nullptr));
-#endif
+  const CObservationVelodyneScan velodyne;
+  EXPECT_EQ(
+      IS_CLASS(*observation_from_scan(scan, Carrier::same, &velodyne), CObservationVelodyneScan),
+      !compat::kVelodyneLosesPoints);
 }
 
-#if MRPT_VERSION < 0x020d02
+TEST(Carriers, auto_keeps_ring_and_column_whatever_the_real_scans_are) {
+  const LidarScan scan = full_scan();
+  const CObservationPointCloud cloud;
+  const CObservation3DRangeScan depth;
+  const CObservationVelodyneScan velodyne;
+  const auto rotating = CObservationRotatingScan::Create();
+  for (const CObservation* const like : std::initializer_list<const CObservation*>{
+           nullptr, &cloud, &depth, &velodyne, rotating.get()}) {
+    const LidarScan read = round_trip(scan, Carrier::automatic, like);
+    expect_same_points(read, scan);
+    expect_same_intensity(read, scan, kHalfStep);
+    EXPECT_EQ(read.ring, scan.ring);
+    EXPECT_EQ(read.column, scan.column);
+    EXPECT_EQ(read.num_rings, scan.num_rings);
+    EXPECT_EQ(read.num_columns, scan.num_columns);
+  }
+}
+
 TEST(Carriers, a_velodyne_scan_keeps_ring_and_time_too) {
   const LidarScan scan = full_scan();
-  const CObservationVelodyneScan like;
-  const LidarScan read = round_trip(scan, Carrier::same, &like);
+  const LidarScan read = round_trip(scan, Carrier::velodyne);
   expect_same_points(read, scan);
   expect_same_intensity(read, scan, kHalfStep);
   EXPECT_EQ(read.ring, scan.ring);
   ASSERT_EQ(read.time_s.size(), scan.time_s.size());
   for (std::size_t i = 0; i < scan.size(); ++i) EXPECT_NEAR(read.time_s[i], scan.time_s[i], 1e-7F);
 }
-#endif
 
 TEST(Carriers, a_point_that_is_not_finite_is_refused) {
   LidarScan scan = full_scan();

@@ -2,7 +2,6 @@
 // Copyright (c) 2026, the lidar_upsampling authors
 #include <gtest/gtest.h>
 #include <mrpt/io/lazy_load_path.h>
-#include <mrpt/maps/CPointsMapXYZI.h>
 #include <mrpt/obs/CObservation3DRangeScan.h>
 #include <mrpt/obs/CObservationOdometry.h>
 #include <mrpt/obs/CObservationPointCloud.h>
@@ -11,6 +10,7 @@
 #include <fstream>
 #include <limits>
 
+#include "lidar_upsampling/compat/point_fields.h"
 #include "lidar_upsampling/io/carriers.h"
 #include "test_folder.h"
 
@@ -42,12 +42,9 @@ TEST(ForeignScans, invalid_points_of_foreign_scans_are_left_out) {
 }
 
 TEST(ForeignScans, eight_bit_intensities_of_foreign_point_clouds_are_scaled) {
-  const auto map = mrpt::maps::CPointsMapXYZI::Create();
-  map->resize(2);
+  const auto map = compat::make_points_map(2, {{51.F, 255.F}, {}, {}, {}});
   map->setPointFast(0, 1, 0, 0);
   map->setPointFast(1, 2, 0, 0);
-  map->setPointIntensity(0, 51.F);
-  map->setPointIntensity(1, 255.F);
   CObservationPointCloud cloud;
   cloud.pointcloud = map;
   const LidarScan scan = scan_from_observation(cloud).value();

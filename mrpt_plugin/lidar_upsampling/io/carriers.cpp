@@ -4,11 +4,11 @@
 
 #include <mrpt/io/lazy_load_path.h>
 #include <mrpt/system/datetime.h>
-#include <mrpt/version.h>
 
 #include <filesystem>
 #include <stdexcept>
 
+#include "lidar_upsampling/compat/mrpt.h"
 #include "lidar_upsampling/io/images.h"
 #include "lidar_upsampling/io/scan_classes.h"
 #include "lidar_upsampling/text.h"
@@ -63,19 +63,12 @@ void read_points(const mrpt::obs::CObservation& observation, LidarScan& scan) {
 Carrier resolve(Carrier carrier, const mrpt::obs::CObservation* like) {
   if (carrier == Carrier::same && like != nullptr) {
     if (dynamic_cast<const CObservationPointCloud*>(like) != nullptr) return Carrier::point_cloud;
-    if (dynamic_cast<const CObservation3DRangeScan*>(like) != nullptr) {
-      return Carrier::range_scan_3d;
-    }
-#if MRPT_VERSION < 0x020d02  // from 2.13.2 on its unload() erases points that have no packets
-    if (dynamic_cast<const CObservationVelodyneScan*>(like) != nullptr) return Carrier::same;
-#endif
+    if (dynamic_cast<const CObservationVelodyneScan*>(like) != nullptr &&
+        !compat::kVelodyneLosesPoints)
+      return Carrier::velodyne;
   }
-  if (carrier != Carrier::automatic && carrier != Carrier::same) return carrier;
-#if MRPT_VERSION >= 0x020b03
-  return Carrier::point_cloud;
-#else
-  return Carrier::range_scan_3d;
-#endif
+  return carrier == Carrier::point_cloud || carrier == Carrier::velodyne ? carrier
+                                                                         : Carrier::range_scan_3d;
 }
 
 // The depth camera whose kind of picture the scan is to be; null if there is none.
@@ -93,7 +86,7 @@ mrpt::obs::CObservation::Ptr make_observation(const LidarScan& scan, Carrier car
   }
   const Carrier resolved = resolve(carrier, like);
   if (resolved == Carrier::point_cloud) return make_point_cloud(scan);
-  if (resolved == Carrier::same) return make_velodyne_scan(scan);
+  if (resolved == Carrier::velodyne) return make_velodyne_scan(scan);
   return make_range_scan_3d(scan);
 }
 

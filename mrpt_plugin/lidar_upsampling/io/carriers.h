@@ -11,11 +11,12 @@
 
 namespace lidar_upsampling {
 
-/// The MRPT class that scans travel in. `automatic` is `range_scan_3d` before MRPT 2.11.3 (whose
-/// maps put a CObservationPointCloud at the wrong place) and `point_cloud` from there on; `same` is
-/// the class of the real scans where it can hold points, else `automatic`. Of a depth camera both
-/// make depth images (scan_classes.h), `automatic` with points, which MRPT's maps need.
-enum class Carrier { automatic, range_scan_3d, point_cloud, same };
+/// The MRPT class that scans travel in. `automatic` is `range_scan_3d`, which keeps ring and column
+/// and is read, mapped and drawn by every MRPT 2; `same` is the class of the real scans where it
+/// can hold points, else `automatic`; `velodyne` has no name of its own in settings, as MRPT from
+/// 2.13.2 on erases such points on the way to a map. Of a depth camera both make depth images
+/// (scan_classes.h), `automatic` with points, which MRPT's maps need.
+enum class Carrier { automatic, range_scan_3d, point_cloud, velodyne, same };
 
 /// "auto", "3drangescan", "pointcloud", "same". @throw std::invalid_argument with the choices.
 [[nodiscard]] Carrier carrier_from_string(const std::string& name);
@@ -35,7 +36,7 @@ enum class Carrier { automatic, range_scan_3d, point_cloud, same };
 
 /// @brief A stock observation that holds the scan, embedded, ready for 3D display and mapping.
 /// 3DRangeScan: `points3D`; ring and column in `points3D_idxs_*`; 8-bit intensity in a ring x
-/// column image. PointCloud: CPointsMapXYZI, or XYZ without intensities.
+/// column image. PointCloud: what this MRPT's points maps can store.
 /// @param like a real scan's observation, read for `automatic` and `same`; may be null.
 [[nodiscard]] mrpt::obs::CObservation::Ptr observation_from_scan(
     const LidarScan& scan, Carrier carrier, const mrpt::obs::CObservation* like = nullptr);

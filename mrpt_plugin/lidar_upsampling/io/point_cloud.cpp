@@ -1,43 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the lidar_upsampling authors
-#include "lidar_upsampling/io/scan_classes.h"
-
-#include <mrpt/maps/CColouredPointsMap.h>
-#include <mrpt/maps/CPointsMapXYZI.h>
-#include <mrpt/maps/CSimplePointsMap.h>
-
 #include <algorithm>
-#include <functional>
+#include <utility>
+
+#include "lidar_upsampling/compat/point_fields.h"
+#include "lidar_upsampling/io/scan_classes.h"
+#include "lidar_upsampling/io/turning_scans.h"
 
 namespace lidar_upsampling {
 namespace {
-
-using mrpt::maps::CPointsMap;
-using mrpt::maps::CPointsMapXYZI;
-
-void set_points(const LidarScan& scan, CPointsMap& map) {
-  map.resize(scan.size());
-  for (std::size_t i = 0; i < scan.size(); ++i) {
-    const Eigen::Vector3f& p = scan.points[i];
-    // The exact origin means "no return" in MRPT's other scan classes.
-    map.setPointFast(i, p.isZero(0.F) ? 1e-6F : p.x(), p.y(), p.z());
-  }
-}
-
-// Intensity of the i-th point, as stored; null if the map has none.
-std::function<float(std::size_t)> intensity_reader(const CPointsMap& map) {
-  if (const auto* const xyzi = dynamic_cast<const CPointsMapXYZI*>(&map)) {
-    return [xyzi](std::size_t i) { return xyzi->getPointIntensity_fast(i); };
-  }
-  if (const auto* const coloured = dynamic_cast<const mrpt::maps::CColouredPointsMap*>(&map)) {
-    return [coloured](std::size_t i) {
-      float x = 0, y = 0, z = 0, r = 0, g = 0, b = 0;
-      coloured->getPointRGB(i, x, y, z, r, g, b);
-      return (r + g + b) / 3.F;
-    };
-  }
-  return nullptr;
-}
 
 void scale_to_unit(std::vector<float>& intensity) {
   if (intensity.empty()) return;
@@ -46,37 +17,51 @@ void scale_to_unit(std::vector<float>& intensity) {
   for (float& value : intensity) value = std::max(0.F, value * scale);
 }
 
+template <typename Value>
+void append(const std::vector<Value>& field, std::size_t i, std::vector<Value>& to) {
+  if (!field.empty()) to.push_back(field[i]);
+}
+
+int one_more_than_largest(const std::vector<std::uint16_t>& values) {
+  return values.empty() ? 0 : 1 + *std::max_element(values.begin(), values.end());
+}
+
 }  // namespace
 
 mrpt::obs::CObservationPointCloud::Ptr make_point_cloud(const LidarScan& scan) {
   auto observation = mrpt::obs::CObservationPointCloud::Create();
-  if (scan.intensity.empty()) {
-    const auto map = mrpt::maps::CSimplePointsMap::Create();
-    set_points(scan, *map);
-    observation->pointcloud = map;
-    return observation;
+  const auto map =
+      compat::make_points_map(scan.size(), {scan.intensity, scan.ring, scan.column, scan.time_s});
+  for (std::size_t i = 0; i < scan.size(); ++i) {
+    const Eigen::Vector3f& p = scan.points[i];
+    // The exact origin means "no return" in MRPT's other scan classes.
+    map->setPointFast(i, p.isZero(0.F) ? 1e-6F : p.x(), p.y(), p.z());
   }
-  const auto map = CPointsMapXYZI::Create();
-  set_points(scan, *map);
-  for (std::size_t i = 0; i < scan.size(); ++i) map->setPointIntensity(i, scan.intensity[i]);
   observation->pointcloud = map;
   return observation;
 }
 
 void read_point_cloud(const mrpt::obs::CObservationPointCloud& observation, LidarScan& scan) {
   if (!observation.pointcloud) return;
-  const CPointsMap& map = *observation.pointcloud;
+  const mrpt::maps::CPointsMap& map = *observation.pointcloud;
   const auto& x = map.getPointsBufferRef_x();
   const auto& y = map.getPointsBufferRef_y();
   const auto& z = map.getPointsBufferRef_z();
-  const auto intensity_of = intensity_reader(map);
+  const compat::PointFields fields = compat::point_fields(map);
   for (std::size_t i = 0; i < x.size(); ++i) {
     const Eigen::Vector3f point(x[i], y[i], z[i]);
     if (!point.allFinite() || point.isZero(0.F)) continue;
     scan.points.push_back(point);
-    if (intensity_of) scan.intensity.push_back(intensity_of(i));
+    append(fields.intensity, i, scan.intensity);
+    append(fields.ring, i, scan.ring);
+    append(fields.column, i, scan.column);
+    append(fields.time_s, i, scan.time_s);
   }
   scale_to_unit(scan.intensity);
+  scan.num_rings = one_more_than_largest(scan.ring);
+  scan.num_columns = one_more_than_largest(scan.column);
+  number_rings_upwards(scan);
+  if (scan.column.empty()) find_columns(scan);
 }
 
 }  // namespace lidar_upsampling

@@ -13,11 +13,12 @@
 /// adds the valid points and what belongs to them to a scan that has none.
 namespace lidar_upsampling {
 
-/// @brief Points embedded: CPointsMapXYZI, or CSimplePointsMap without intensities. Ring, column
-/// and time have no place there.
+/// @brief Points embedded, with what this MRPT's points maps store of them (compat/point_fields.h):
+/// before 2.11 intensity only, then ring and time, too, from 2.15.3 on all.
 [[nodiscard]] mrpt::obs::CObservationPointCloud::Ptr make_point_cloud(const LidarScan& scan);
 
-/// Points and intensity; intensities above 1 are taken for 8-bit ones.
+/// @brief Points, and as far as they are there intensity, ring, time and column, the last found
+/// from azimuths where it is not. Intensities above 1 are taken for 8-bit ones.
 void read_point_cloud(const mrpt::obs::CObservationPointCloud& observation, LidarScan& scan);
 
 /// @brief Points embedded in `points3D`, ring and column in `points3D_idxs_*`, and the intensity
