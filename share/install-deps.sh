@@ -7,7 +7,7 @@ set -euo pipefail
 packages=(
   g++ cmake ninja-build help2man
   libmrpt-dev mrpt-apps libopencv-dev libceres-dev libeigen3-dev libgeographiclib-dev libtbb-dev
-  libnanoflann-dev libcli11-dev nlohmann-json3-dev libtinyxml2-dev zlib1g-dev libisal-dev libdeflate-dev libjpeg-dev pkgconf gnuplot-nox
+  libnanoflann-dev libcli11-dev nlohmann-json3-dev libtinyxml2-dev zlib1g-dev libisal-dev libdeflate-dev libzstd-dev libjpeg-dev pkgconf gnuplot-nox
 )
 case "${1:-}" in
   "") ;;

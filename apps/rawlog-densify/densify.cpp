@@ -13,6 +13,7 @@
 #include "lidar_upsampling/io/rawlog_stream.h"
 #include "lidar_upsampling/io/sensory_frame.h"
 #include "log_input.h"
+#include "mrpt_needs.h"
 #include "odd_inputs.h"
 
 namespace lidar_upsampling {
@@ -202,6 +203,7 @@ DensifyReport densify(const DensifyJob& job, const std::function<void(double)>& 
     output.commit();
   }
   warn_of_no_virtual_scan(report);
+  warn_of_newer_mrpt(job.config, report);
   link_external_images(job, report);
   return report;
 }

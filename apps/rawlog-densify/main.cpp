@@ -12,6 +12,7 @@
 #include "lidar_upsampling/io/file_places.h"
 #include "lidar_upsampling/io/text_file.h"
 #include "many_logs.h"
+#include "mrpt_needs.h"
 #include "parts.h"
 
 namespace {
@@ -26,7 +27,7 @@ LogCheck checked(const DensifyJob& job) {
 struct Request {
   DensifyJob job;
   std::vector<std::string> inputs, sets;
-  std::string config, detections, poses, report;
+  std::string config, detections, poses, report, for_mrpt;
   int num_jobs = 1;
   double warm_up_s = PartOptions().warm_up_s;
   bool print_config = false, check = false;
@@ -47,9 +48,10 @@ void add_settings(CLI::App& app, Request& request) {
 
 void add_files(CLI::App& app, Request& request) {
   DensifyJob& job = request.job;
-  app.add_option("-i,--input", request.inputs,
-                 "the log to densify (.rawlog, plain or gzip); of several, output, report, film "
-                 "and pictures are folders");
+  app.add_option(
+      "-i,--input", request.inputs,
+      "the log to densify (.rawlog, plain, gzip or zstd); of several, output, report, film "
+      "and pictures are folders");
   app.add_option("-o,--output", job.output, "the densified log");
   app.add_option("--report", request.report,
                  "counts, times, and a row per object and image (JSON)");
@@ -77,6 +79,8 @@ void add_ways_to_work(CLI::App& app, Request& request) {
   app.add_flag("--check", request.check,
                "only look at --input: its streams, and how camera and LiDAR fit in space and time; "
                "with --pictures, a scan on a picture of each camera");
+  app.add_option("--for-mrpt", request.for_mrpt,
+                 "a release of MRPT, as 2.5: refuse settings whose logs it cannot read");
   app.add_flag("--print-config", request.print_config,
                "print all settings with their defaults, and stop");
 }
@@ -123,6 +127,8 @@ void work_on(Request& request) {
   }
   if (!request.poses.empty()) request.sets.push_back("ego_motion.poses_file=" + request.poses);
   load_settings(request.job, request.config, request.sets, request.detections);
+  if (!request.for_mrpt.empty())
+    check_readable_by(parse_release(request.for_mrpt), request.job.config);
   if (request.inputs.size() > 1) {
     densify_several(request);
     return;

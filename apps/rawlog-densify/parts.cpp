@@ -16,31 +16,59 @@
 
 #include "lidar_upsampling/front_end/pose_input.h"
 #include "lidar_upsampling/io/file_places.h"
+#include "lidar_upsampling/io/gzip_writer.h"
 #include "lidar_upsampling/io/output_file.h"
+#include "mrpt_needs.h"
 #include "odd_inputs.h"
 #include "streams.h"
 
 namespace lidar_upsampling {
 namespace {
 
-/// The parts' outputs until they are one: packed files one after the other are a packed file.
+bool is_one_frame(const DensifyJob& job) {
+  return job.config.compression.format == Compression::Format::zstd;
+}
+
+/// The parts' outputs until they are one: gzip files one after the other are a gzip file; for zstd,
+/// which has to be one frame, they are packed when they are joined.
 class PartFiles {
  public:
-  PartFiles(const DensifyJob& job, std::size_t count) : output_(job.output, {job.overwrite}) {
-    for (std::size_t i = 1; i < count; ++i) others_.push_back(OutputFile::scratch(job.output));
+  PartFiles(const DensifyJob& job, std::size_t count)
+      : output_(job.output, {job.overwrite}),
+        compression_(job.config.compression),
+        is_one_frame_(is_one_frame(job)) {
+    for (std::size_t i = is_one_frame_ ? 0 : 1; i < count; ++i)
+      others_.push_back(OutputFile::scratch(job.output));
   }
 
   [[nodiscard]] OutputFile& file(std::size_t part) {
+    if (is_one_frame_) return others_[part];
     return part == 0 ? output_ : others_[part - 1];
   }
 
   void join() {
+    if (is_one_frame_) pack();
     for (; !others_.empty(); others_.pop_front()) output_.append(others_.front());
     output_.commit();
   }
 
  private:
+  void pack() {
+    GzipWriter writer(output_, compression_);
+    for (; !others_.empty(); others_.pop_front())
+      for (std::uint64_t done = 0; done < others_.front().size();) {
+        std::vector<std::uint8_t> block(1U << 20U);
+        block.resize(others_.front().read(done, block.data(), block.size()));
+        if (block.empty()) throw std::runtime_error(output_.path() + ": a part of it is gone");
+        done += block.size();
+        writer.write(block);
+      }
+    writer.finish();
+  }
+
   OutputFile output_;
+  Compression compression_;
+  bool is_one_frame_;
   std::deque<OutputFile> others_;
 };
 
@@ -60,9 +88,10 @@ std::vector<LogPart> parts_of(const LogIndex& index, std::vector<Stamp> scans,
 }
 
 // Side by side, each with its share of the cores.
-std::vector<PartReport> densify_side_by_side(const DensifyJob& job,
-                                             const std::vector<LogPart>& parts, PartFiles& files,
+std::vector<PartReport> densify_side_by_side(DensifyJob job, const std::vector<LogPart>& parts,
+                                             PartFiles& files,
                                              const std::function<void(double)>& progress) {
+  if (is_one_frame(job)) job.config.compression = Compression::none;
   const int cores = std::max(1, tbb::info::default_concurrency() / static_cast<int>(parts.size()));
   std::vector<PartReport> reports(parts.size());
   std::vector<std::exception_ptr> errors(parts.size());
@@ -106,6 +135,7 @@ DensifyReport densify_in_parts(const DensifyJob& job, const PartOptions& options
   DensifyReport report = joined(densify_side_by_side(job, parts, files, progress), rows);
   files.join();
   warn_of_no_virtual_scan(report);
+  warn_of_newer_mrpt(job.config, report);
   link_external_images(job, report);
   return report;
 }

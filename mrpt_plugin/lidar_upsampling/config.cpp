@@ -145,6 +145,10 @@ void SettingList::integer(const char* key, int& value, Range range, const char* 
   add(key, value, comment, [range](const std::string& text) { return integer_from(text, range); });
 }
 
+void SettingList::packing(const char* key, Compression& value, const char* comment) {
+  add(key, value, comment, parse_compression);
+}
+
 void SettingList::flag(const char* key, bool& value, const char* comment) {
   add(key, value, comment, flag_from);
 }

@@ -19,11 +19,11 @@ void list_main(Config& c, SettingList& v) {
   v.text("output_label", c.output_label,
          "sensor label of the virtual scans; empty: the LiDAR's with _VIRTUAL behind it");
   v.word("carrier", c.carrier, {"auto", "3drangescan", "pointcloud", "same"},
-         "MRPT class of the virtual scans; auto: the one that this MRPT's maps and viewers handle "
-         "best");
-  v.choice_of(
-      "compression", c.compression, {"none", "fast", "small"},
-      "of the output, which any MRPT reads; small: 6 % smaller than fast, for five times the work");
+         "MRPT class of the virtual scans; auto: 3drangescan, which keeps rings and columns, and "
+         "which every MRPT's maps and viewers handle");
+  v.packing("compression", c.compression,
+            "of the output: none; fast or small (6 % smaller, for five times the work), or gzip:1 "
+            "to gzip:9, which any MRPT reads; zstd:1 to zstd:19, which MRPT reads from 2.15.7 on");
   v.former("0", "none");
   for (const char* level : {"1", "2", "3"}) v.former(level, "fast");
   for (const char* level : {"4", "5", "6", "7", "8", "9"}) v.former(level, "small");

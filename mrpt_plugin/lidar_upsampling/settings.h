@@ -10,6 +10,7 @@
 namespace lidar_upsampling {
 
 struct Config;
+struct Compression;
 
 /// Limits of a number, both allowed.
 struct Range {
@@ -52,6 +53,8 @@ struct SettingList {
         key, choices, comment, [&value] { return static_cast<std::size_t>(value); },
         [&value](std::size_t position) { value = static_cast<Enum>(position); });
   }
+
+  void packing(const char* key, Compression& value, const char* comment);
 
   /// What the last setting was called before, so that files from then still work.
   void former(const std::string& text, const std::string& now);

@@ -47,6 +47,30 @@ std::string to_text(Stamp stamp) {
   return std::to_string(ticks / kTicksPerSecond) + "." + fraction;
 }
 
+Compression parse_compression(const std::string& text) {
+  if (text == "none") return Compression::none;
+  if (text == "fast") return Compression::fast;
+  if (text == "small") return Compression::small;
+  const bool is_zstd = text.rfind("zstd:", 0) == 0;
+  const std::string level = text.substr(std::min(text.size(), std::size_t{5}));
+  if ((is_zstd || text.rfind("gzip:", 0) == 0) && !level.empty() && level.size() < 3 &&
+      all_digits(level)) {
+    const int number = std::stoi(level);
+    if (number >= 1 && number <= (is_zstd ? 19 : 9))
+      return {is_zstd ? Compression::Format::zstd : Compression::Format::gzip, number};
+  }
+  throw std::invalid_argument(
+      "the choices are none, fast, small, gzip:1 to gzip:9, zstd:1 to zstd:19");
+}
+
+std::string to_text(const Compression& compression) {
+  if (compression == Compression::small) return "small";
+  constexpr std::array<const char*, 4> kFormats{"none", "fast", "gzip", "zstd"};
+  std::string text = kFormats.at(static_cast<std::size_t>(compression.format));
+  if (compression.level > 0) text += ":" + std::to_string(compression.level);
+  return text;
+}
+
 const char* to_string(MotionStatus status) {
   constexpr std::array<const char*, 5> kNames{"moving", "stationary", "predicted", "too_few_points",
                                               "no_consensus"};

@@ -21,8 +21,27 @@ namespace lidar_upsampling {
 /// An instant, in MRPT's 100 ns ticks. Copied, never sent through a double.
 using Stamp = mrpt::Clock::time_point;
 
-/// How logs are packed that are written: not at all, at the speed of a disk, or smaller.
-enum class Compression { none, fast, small };
+/// How a log is packed that is written. MRPT before 2.15.7 reads no zstd.
+struct Compression {
+  enum class Format { none, fast, gzip, zstd };  ///< fast: gzip, at the speed of a disk
+
+  Format format = Format::fast;
+  int level = 0;  ///< of gzip 1 to 9, of zstd 1 to 19, as these programs have them
+
+  static const Compression none, fast, small;
+
+  bool operator==(const Compression& other) const {
+    return format == other.format && level == other.level;
+  }
+};
+inline constexpr Compression Compression::none{Format::none, 0};
+inline constexpr Compression Compression::fast{Format::fast, 0};
+inline constexpr Compression Compression::small{Format::gzip, 6};
+
+/// @brief "none", "fast", "small", "gzip:6", "zstd:3". @throw std::invalid_argument with the
+/// choices.
+[[nodiscard]] Compression parse_compression(const std::string& text);
+[[nodiscard]] std::string to_text(const Compression& compression);
 
 /// A rigid motion; always named T_target_source.
 using Pose = Eigen::Isometry3d;

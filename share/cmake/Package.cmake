@@ -23,7 +23,7 @@ its own motion. With tools to simulate, import, thin and evaluate logs.")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME liblidar-upsampling-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
-  "libmrpt-config-dev, libmrpt-img-dev, libmrpt-maps-dev, libmrpt-obs-dev, libmrpt-opengl-dev, libopencv-dev (>= 4.6), libceres-dev (>= 2.1), libeigen3-dev (>= 3.4), libgeographiclib-dev, libtbb-dev, libisal-dev, libdeflate-dev, pkgconf | pkg-config")
+  "libmrpt-config-dev, libmrpt-img-dev, libmrpt-maps-dev, libmrpt-obs-dev, libmrpt-opengl-dev, libopencv-dev (>= 4.6), libceres-dev (>= 2.1), libeigen3-dev (>= 3.4), libgeographiclib-dev, libtbb-dev, libisal-dev, libdeflate-dev, libzstd-dev, pkgconf | pkg-config")
 set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "Library, headers and CMake package of lidar_upsampling: scans and images in,
 virtual scans out.")
 include(CPack)

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <mrpt/io/CFileGZInputStream.h>
 
+#include <algorithm>
 #include <random>
 
 #include "lidar_upsampling/io/gzip_reader.h"
@@ -51,6 +52,7 @@ TEST_P(Packing, what_is_written_is_read_again_by_us_and_by_mrpt) {
   write_file(folder_ / "a", GetParam(), parts);
   const Bytes all = joined(parts);
   EXPECT_EQ(uncompressed(folder_ / "a"), all);
+  if (GetParam().format == Compression::Format::zstd) return;  // that is another class's of MRPT
   EXPECT_EQ(read_as_mrpt_does(folder_ / "a", all.size()), all);
 }
 
@@ -62,8 +64,15 @@ TEST_P(Packing, the_same_writes_make_the_same_file) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, Packing,
-                         ::testing::Values(Compression::none, Compression::fast,
-                                           Compression::small));
+                         ::testing::Values(Compression::none, Compression::fast, Compression::small,
+                                           parse_compression("gzip:1"), parse_compression("gzip:9"),
+                                           parse_compression("zstd:1"), parse_compression("zstd:3"),
+                                           parse_compression("zstd:19")),
+                         [](const auto& test) {
+                           std::string name = to_text(test.param);
+                           std::replace(name.begin(), name.end(), ':', '_');
+                           return name;
+                         });
 
 /// Two members, and how long the first is.
 struct TwoMembers {

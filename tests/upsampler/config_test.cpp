@@ -74,6 +74,20 @@ TEST(Config, gzip_levels_of_former_files_still_mean_something) {
   EXPECT_EQ(loaded("[lidar_upsampling]\ncompression = small\n").compression, Compression::small);
 }
 
+TEST(Config, compression_is_a_word_or_a_format_with_its_level) {
+  for (const char* const text : {"none", "fast", "small", "gzip:1", "gzip:9", "zstd:3", "zstd:19"})
+    EXPECT_EQ(to_text(parse_compression(text)), text);
+  EXPECT_EQ(loaded("[lidar_upsampling]\ncompression = zstd:3\n").compression,
+            (Compression{Compression::Format::zstd, 3}));
+  EXPECT_EQ(parse_compression("gzip:6"), Compression::small);
+  for (const char* const text :
+       {"", "zstd", "zstd:", "zstd:0", "zstd:20", "gzip:10", "gzip:1x", "zstd:-1", "lz4:1", "10"})
+    EXPECT_NE(error_of("[lidar_upsampling]\ncompression = " + std::string(text) + "\n")
+                  .find("zstd:1 to zstd:19"),
+              std::string::npos)
+        << text;
+}
+
 TEST(Config, an_unknown_key_is_named_with_those_there_are) {
   const std::string error = error_of("[klt]\nwindow = 21\n");
   EXPECT_NE(error.find("[klt] window"), std::string::npos) << error;

@@ -13,10 +13,10 @@
 
 namespace lidar_upsampling {
 
-/// @brief Reads a plain or gzip file (RFC 1952, of one member or of many), unpacked a little ahead
-/// by a thread of its own, and keeps a record of what was read.
-/// mrpt::io::CFileGZInputStream cannot serve: it does not tell the end of the data from a gzip
-/// stream that is cut or damaged.
+/// @brief Reads a file that is plain, gzip or zstd, see Unpacker, unpacked a little ahead by a
+/// thread of its own, and keeps a record of what was read.
+/// mrpt::io::CFileGZInputStream cannot serve: it does not tell the end of the data from a stream
+/// that is cut or damaged, and in most releases knows no zstd.
 class RecordingGzipReader : public mrpt::io::CStream {
  public:
   /// @throw std::runtime_error the file cannot be opened.

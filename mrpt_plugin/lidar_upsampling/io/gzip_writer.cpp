@@ -54,14 +54,18 @@ void GzipWriter::work() {
   while (true) {
     std::unique_lock lock(mutex_);
     changed_.wait(lock, [this] { return is_over_ || !waiting_.empty(); });
-    if (waiting_.empty()) return;
-    const Bytes block = std::move(waiting_.front());
-    waiting_.pop_front();
+    const bool is_last = waiting_.empty();
+    Bytes block;
+    if (!is_last) {
+      block = std::move(waiting_.front());
+      waiting_.pop_front();
+    }
     lock.unlock();
     changed_.notify_all();
     try {
-      const Bytes packed = packer_->pack(block);
+      const Bytes& packed = is_last ? packer_->finish() : packer_->pack(block);
       file_.write(packed.data(), packed.size());
+      if (is_last) return;
     } catch (...) {
       lock.lock();
       error_ = std::current_exception();

@@ -17,8 +17,8 @@ namespace lidar_upsampling {
 
 class OutputFile;
 
-/// @brief Fills a file with gzip members one after the other or plainly, packed by a thread of its
-/// own. The same writes give the same file.
+/// @brief Fills a file with gzip members one after the other, with a zstd frame or plainly, packed
+/// by a thread of its own. The same writes give the same file.
 class GzipWriter {
  public:
   /// @param file nobody else writes to it before finish(). Must outlive this.
@@ -27,7 +27,7 @@ class GzipWriter {
   GzipWriter(const GzipWriter&) = delete;
   GzipWriter& operator=(const GzipWriter&) = delete;
 
-  /// What is written at once stays in one member.
+  /// What is written at once stays in one gzip member.
   /// @throw std::runtime_error the system's reason, as "No space left on device", of this write or
   /// of one before.
   void write(const std::vector<std::uint8_t>& bytes);

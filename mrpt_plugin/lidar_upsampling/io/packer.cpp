@@ -4,10 +4,12 @@
 
 #include <isa-l/igzip_lib.h>
 #include <libdeflate.h>
+#include <zstd.h>
 
 #include <limits>
 #include <new>
 #include <stdexcept>
+#include <string>
 
 namespace lidar_upsampling {
 namespace {
@@ -49,8 +51,10 @@ class FastPacker : public Packer {
   std::vector<std::uint8_t> buffer_, packed_;
 };
 
-class SmallPacker : public Packer {
+class GzipPacker : public Packer {
  public:
+  explicit GzipPacker(int level) : compressor_(libdeflate_alloc_compressor(level)) {}
+
   const std::vector<std::uint8_t>& pack(const std::vector<std::uint8_t>& block) override {
     if (!compressor_) throw std::bad_alloc();
     packed_.resize(libdeflate_gzip_compress_bound(compressor_.get(), block.size()));
@@ -60,25 +64,71 @@ class SmallPacker : public Packer {
   }
 
  private:
-  static constexpr int kLevel = 6;  // beyond, time doubles for 1 % of the size
   struct Free {
     void operator()(libdeflate_compressor* compressor) const {
       libdeflate_free_compressor(compressor);
     }
   };
-  std::unique_ptr<libdeflate_compressor, Free> compressor_{libdeflate_alloc_compressor(kLevel)};
+  std::unique_ptr<libdeflate_compressor, Free> compressor_;
+  std::vector<std::uint8_t> packed_;
+};
+
+class ZstdPacker : public Packer {
+ public:
+  explicit ZstdPacker(int level) : state_(ZSTD_createCCtx()) {
+    if (!state_) throw std::bad_alloc();
+    set(ZSTD_c_compressionLevel, level);
+    set(ZSTD_c_checksumFlag, 1);
+  }
+  const std::vector<std::uint8_t>& pack(const std::vector<std::uint8_t>& block) override {
+    return run(block, ZSTD_e_continue);
+  }
+  const std::vector<std::uint8_t>& finish() override { return run({}, ZSTD_e_end); }
+
+ private:
+  void set(ZSTD_cParameter parameter, int value) {
+    check(ZSTD_CCtx_setParameter(state_.get(), parameter, value));
+  }
+  static std::size_t check(std::size_t code) {
+    if (ZSTD_isError(code) != 0)
+      throw std::runtime_error(std::string("zstd cannot pack: ") + ZSTD_getErrorName(code));
+    return code;
+  }
+  const std::vector<std::uint8_t>& run(const std::vector<std::uint8_t>& block,
+                                       ZSTD_EndDirective directive) {
+    packed_.resize(ZSTD_compressBound(block.size()) + ZSTD_CStreamOutSize());
+    ZSTD_inBuffer in{block.data(), block.size(), 0};
+    ZSTD_outBuffer out{packed_.data(), packed_.size(), 0};
+    for (bool is_done = false; !is_done;) {
+      const std::size_t left = check(ZSTD_compressStream2(state_.get(), &out, &in, directive));
+      is_done = directive == ZSTD_e_end ? left == 0 : in.pos == in.size;
+      if (is_done || out.pos < out.size) continue;
+      packed_.resize(2 * packed_.size());
+      out.dst = packed_.data();
+      out.size = packed_.size();
+    }
+    packed_.resize(out.pos);
+    return packed_;
+  }
+
+  struct Free {
+    void operator()(ZSTD_CCtx* state) const { ZSTD_freeCCtx(state); }
+  };
+  std::unique_ptr<ZSTD_CCtx, Free> state_;
   std::vector<std::uint8_t> packed_;
 };
 
 }  // namespace
 
 std::unique_ptr<Packer> make_packer(Compression compression) {
-  switch (compression) {
-    case Compression::none:
+  switch (compression.format) {
+    case Compression::Format::none:
       return std::make_unique<NoPacker>();
-    case Compression::small:
-      return std::make_unique<SmallPacker>();
-    case Compression::fast:
+    case Compression::Format::gzip:
+      return std::make_unique<GzipPacker>(compression.level);
+    case Compression::Format::zstd:
+      return std::make_unique<ZstdPacker>(compression.level);
+    case Compression::Format::fast:
       break;
   }
   return std::make_unique<FastPacker>();

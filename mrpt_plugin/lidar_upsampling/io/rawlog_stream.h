@@ -60,8 +60,8 @@ struct CorruptRawlog : std::runtime_error {
 [[nodiscard]] bool share_external_storage(const std::string& source_rawlog,
                                           const std::string& target_rawlog);
 
-/// @brief Streams a rawlog (plain or gzip) object by object, and tells a clean end from a broken
-/// one. Also tells MRPT where the externally stored images and scans of the log lie (see
+/// @brief Streams a rawlog (plain, gzip or zstd) object by object, and tells a clean end from a
+/// broken one. Also tells MRPT where the externally stored images and scans of the log lie (see
 /// external_storage_of). MRPT has one such path per process: load the external files of an object
 /// before another reader is asked for its next one.
 class RawlogReader {
@@ -98,7 +98,7 @@ class RawlogReader {
   std::optional<std::string> damage_;
 };
 
-/// @brief Writes a gzip rawlog, which appears on `commit()` and never if that does not come, see
+/// @brief Writes a rawlog, which appears on `commit()` and never if that does not come, see
 /// OutputFile.
 class RawlogWriter {
  public:

@@ -6,9 +6,12 @@
 #include <isa-l/igzip_lib.h>
 #include <sys/stat.h>
 #include <unistd.h>
+#include <zstd.h>
+#include <zstd_errors.h>
 
 #include <algorithm>
 #include <cerrno>
+#include <new>
 #include <stdexcept>
 #include <system_error>
 #include <utility>
@@ -17,7 +20,7 @@ namespace lidar_upsampling {
 namespace {
 
 constexpr std::size_t kInput = 1U << 18U;
-constexpr std::uint8_t kMagic[] = {0x1f, 0x8b};
+const std::vector<std::uint8_t> kGzip{0x1f, 0x8b}, kZstd{0x28, 0xb5, 0x2f, 0xfd};
 
 std::string reason_of(int code) {
   switch (code) {
@@ -26,6 +29,22 @@ std::string reason_of(int code) {
     case ISAL_INVALID_WRAPPER:
     case ISAL_UNSUPPORTED_METHOD:
       return "its header is none that gzip writes";
+    default:
+      return "its codes make no sense";
+  }
+}
+
+std::string reason_of_zstd(std::size_t code) {
+  switch (ZSTD_getErrorCode(code)) {
+    case ZSTD_error_checksum_wrong:
+      return "its checksum is another one";
+    case ZSTD_error_prefix_unknown:
+    case ZSTD_error_version_unsupported:
+    case ZSTD_error_frameParameter_unsupported:
+      return "its header is none that zstd writes";
+    case ZSTD_error_frameParameter_windowTooLarge:
+    case ZSTD_error_memory_allocation:
+      return "it asks for more memory than any log's needs";
     default:
       return "its codes make no sense";
   }
@@ -47,12 +66,19 @@ Unpacker::Unpacker(const std::string& path) : input_(kInput) {
     throw_open_error(path, "reading", EISDIR);
   }
   file_size_ = static_cast<std::uint64_t>(info.st_size);
-  if (!starts_member()) return;
-  kind_ = Kind::gzip;
-  state_ = std::make_unique<inflate_state>();
-  isal_inflate_init(state_.get());
-  state_->crc_flag = ISAL_GZIP;
+  if (starts_with(kGzip)) {
+    kind_ = Kind::gzip;
+    state_ = std::make_unique<inflate_state>();
+    isal_inflate_init(state_.get());
+    state_->crc_flag = ISAL_GZIP;
+  } else if (starts_with(kZstd)) {
+    kind_ = Kind::zstd;
+    zstd_.reset(ZSTD_createDCtx());
+    if (!zstd_) throw std::bad_alloc();
+  }
 }
+
+void Unpacker::Free::operator()(ZSTD_DCtx_s* state) const { ZSTD_freeDCtx(state); }
 
 Unpacker::~Unpacker() { close(file_); }
 
@@ -60,10 +86,18 @@ std::uint64_t Unpacker::file_position() const { return num_read_ - size_; }
 
 std::size_t Unpacker::unpack(std::vector<std::uint8_t>& block) {
   if (is_at_end_) return 0;
-  return kind_ == Kind::gzip ? inflate(block) : copy(block);
+  switch (kind_) {
+    case Kind::gzip:
+      return inflate(block);
+    case Kind::zstd:
+      return unpack_zstd(block);
+    case Kind::plain:
+      break;
+  }
+  return copy(block);
 }
 
-// What is left moves to the front, so that two bytes of a header are always seen together.
+// What is left moves to the front, so that a header's first bytes are always seen together.
 bool Unpacker::refill() {
   std::copy_n(input_.begin() + static_cast<std::ptrdiff_t>(begin_), size_, input_.begin());
   begin_ = 0;
@@ -78,10 +112,9 @@ bool Unpacker::refill() {
   return size_ > 0;
 }
 
-bool Unpacker::starts_member() {
-  if (size_ < sizeof kMagic) refill();
-  return size_ >= sizeof kMagic &&
-         std::equal(std::begin(kMagic), std::end(kMagic), input_.data() + begin_);
+bool Unpacker::starts_with(const std::vector<std::uint8_t>& magic) {
+  if (size_ < magic.size()) refill();
+  return size_ >= magic.size() && std::equal(magic.begin(), magic.end(), input_.data() + begin_);
 }
 
 std::size_t Unpacker::end(std::size_t done, std::optional<std::string> defect) {
@@ -122,13 +155,32 @@ std::size_t Unpacker::inflate(std::vector<std::uint8_t>& block) {
       if (!has_input && done == before) return end(done, "the gzip stream is cut off");
       continue;
     }
-    if (!starts_member())
+    if (!starts_with(kGzip))
       return size_ == 0 ? end(done, {})
                         : end(done, "the gzip stream is damaged: what follows it is none");
     isal_inflate_reset(&state);
     state.crc_flag = ISAL_GZIP;
   }
   return done;
+}
+
+std::size_t Unpacker::unpack_zstd(std::vector<std::uint8_t>& block) {
+  ZSTD_outBuffer out{block.data(), block.size(), 0};
+  while (out.pos < out.size) {
+    const bool has_input = size_ > 0 || refill();  // none: what is unpacked may still wait inside
+    if (!has_input && !in_frame_) return end(out.pos, {});
+    const std::size_t before = out.pos;
+    ZSTD_inBuffer in{input_.data() + begin_, size_, 0};
+    const std::size_t code = ZSTD_decompressStream(zstd_.get(), &out, &in);
+    begin_ += in.pos;
+    size_ -= in.pos;
+    if (ZSTD_isError(code) != 0)
+      return end(out.pos, "the zstd stream is damaged: " + reason_of_zstd(code));
+    in_frame_ = code != 0;
+    if (!has_input && in_frame_ && out.pos == before)
+      return end(out.pos, "the zstd stream is cut off");
+  }
+  return out.pos;
 }
 
 }  // namespace lidar_upsampling

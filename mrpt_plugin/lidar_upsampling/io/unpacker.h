@@ -9,6 +9,7 @@
 #include <vector>
 
 struct inflate_state;
+struct ZSTD_DCtx_s;
 
 namespace lidar_upsampling {
 
@@ -16,9 +17,10 @@ namespace lidar_upsampling {
 /// @throw std::runtime_error always.
 [[noreturn]] void throw_open_error(const std::string& path, const char* purpose, int error_number);
 
-/// @brief Unpacks a file block by block: gzip (RFC 1952), its members one after the other; or
-/// a plain file, as it is. What follows a member must be another one: gunzip leaves out anything
-/// else, and with it all members that come after one whose header is damaged.
+/// @brief Unpacks a file block by block: gzip (RFC 1952) or zstd (RFC 8878), as its first bytes
+/// tell, its members or frames one after the other; or a plain file, as it is. What follows a
+/// member must be another one: gunzip leaves out anything else, and with it all members that come
+/// after one whose header is damaged.
 class Unpacker {
  public:
   /// @throw std::runtime_error the file cannot be opened, or is a folder.
@@ -38,13 +40,17 @@ class Unpacker {
   [[nodiscard]] std::uint64_t file_position() const;
 
  private:
-  enum class Kind { plain, gzip };
+  enum class Kind { plain, gzip, zstd };
+  struct Free {
+    void operator()(ZSTD_DCtx_s* state) const;
+  };
 
   /// @return whether there is input.
   bool refill();
-  bool starts_member();
+  bool starts_with(const std::vector<std::uint8_t>& magic);
   std::size_t copy(std::vector<std::uint8_t>& block);
   std::size_t inflate(std::vector<std::uint8_t>& block);
+  std::size_t unpack_zstd(std::vector<std::uint8_t>& block);
   std::size_t end(std::size_t done, std::optional<std::string> defect);
 
   int file_ = -1;
@@ -54,6 +60,8 @@ class Unpacker {
   std::vector<std::uint8_t> input_;
   std::size_t begin_ = 0, size_ = 0;  // of what is left of `input_`
   std::unique_ptr<inflate_state> state_;
+  std::unique_ptr<ZSTD_DCtx_s, Free> zstd_;
+  bool in_frame_ = false;
   std::optional<std::string> defect_;
 };
 
