@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Installs the Debian 12 packages that lidar_upsampling needs; does nothing when all are there.
+# Installs the packages of Debian 12 or newer that lidar_upsampling needs; does nothing when all are there.
 #   share/install-deps.sh           to build and run
 #   share/install-deps.sh --tests   also what the tests and benchmarks use
 set -euo pipefail

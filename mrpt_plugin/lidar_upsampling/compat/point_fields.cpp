@@ -7,7 +7,7 @@
 
 #include <string>
 
-#if MRPT_VERSION >= 0x020f03
+#if MRPT_VERSION >= 0x020f04
 #include <mrpt/maps/CGenericPointsMap.h>
 #else
 #include <mrpt/maps/CPointsMapXYZI.h>
@@ -48,7 +48,7 @@ std::vector<float> grays(const CPointsMap& map) {
 }  // namespace
 #pragma GCC diagnostic pop
 
-#if MRPT_VERSION >= 0x020f03
+#if MRPT_VERSION >= 0x020f04
 
 namespace {
 
@@ -106,7 +106,7 @@ CPointsMap::Ptr make_points_map(std::size_t size, const PointFields& fields) {
   return map;
 }
 
-const char* maps_with_rings_since() { return "2.15.3"; }
+const char* maps_with_rings_since() { return "2.15"; }
 
 #else
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 /// What MRPT's points maps know of a point besides its place has changed three times: 2.5 has an
-/// intensity (CPointsMapXYZI), 2.11 a ring and a time (CPointsMapXYZIRT), 2.15.3 fields of any name
+/// intensity (CPointsMapXYZI), 2.11 a ring and a time (CPointsMapXYZIRT), 2.15.4 fields of any name
 /// (CGenericPointsMap).
 namespace lidar_upsampling::compat {
 

@@ -14,7 +14,7 @@
 namespace lidar_upsampling {
 
 /// @brief Points embedded, with what this MRPT's points maps store of them (compat/point_fields.h):
-/// before 2.11 intensity only, then ring and time, too, from 2.15.3 on all.
+/// before 2.11 intensity only, then ring and time, too, from 2.15.4 on all.
 [[nodiscard]] mrpt::obs::CObservationPointCloud::Ptr make_point_cloud(const LidarScan& scan);
 
 /// @brief Points, and as far as they are there intensity, ring, time and column, the last found
