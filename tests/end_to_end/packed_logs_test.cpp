@@ -58,6 +58,18 @@ TEST(PackedLogs, of_zstd_go_in_and_parts_of_them_come_out_as_one_frame) {
   EXPECT_TRUE(uncompressed(folder / "b.rawlog") == file_bytes(folder / "a.rawlog"));
 }
 
+TEST(PackedLogs, of_zstd_are_read_by_the_mrpt_that_writes_them_and_its_own_by_us) {
+  if (!compat::kReadsZstd || !has_rawlog_edit()) GTEST_SKIP() << "this MRPT knows no zstd";
+  const TestFolder folder;
+  write_hand_made(folder / "in.rawlog");
+  densify(folder, "--set compression=zstd:3");
+  expect_done("rawlog-edit --remove-label LIDAR_VIRTUAL -i " + folder / "out.rawlog" + " -o " +
+              folder / "back.rawlog");
+  EXPECT_TRUE(first_bytes(folder / "back.rawlog") == kZstd);
+  EXPECT_EQ(stamps_of(observations_of(folder / "back.rawlog")),
+            stamps_of(observations_of(folder / "in.rawlog")));
+}
+
 TEST(PackedLogs, that_end_within_a_frame_are_refused_in_one_line_or_read_as_far_as_they_go) {
   const TestFolder folder;
   write_hand_made(folder / "in.rawlog");
