@@ -74,7 +74,8 @@ TEST(PointIndex, the_k_nearest_are_those_of_a_search_by_hand) {
     std::vector<PointIndex::Neighbor> found;
     index.nearest(place, 7, found);
     ASSERT_EQ(found.size(), 7U);
-    for (std::size_t k = 0; k < found.size(); ++k) ASSERT_EQ(found[k].sq_distance, by_hand[k]);
+    for (std::size_t k = 0; k < found.size(); ++k)
+      ASSERT_FLOAT_EQ(found[k].sq_distance, by_hand[k]);
   }
 }
 

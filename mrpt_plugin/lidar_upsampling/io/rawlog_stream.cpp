@@ -34,11 +34,29 @@ void register_stock_classes() {
   static_cast<void>(done);
 }
 
+// What stands from there to the next quote.
+std::string up_to_quote(const std::string& text, std::size_t from) {
+  return text.substr(from, text.find('\'', from) - from);
+}
+
+// The class whose version this MRPT does not know; empty: that is not what happened.
+std::string class_of_newer_version(const std::string& text) {
+  const std::string kVersion = "unknown serialization version number: '", kClass = "typed object '";
+  const auto version = text.find(kVersion);
+  const auto name = text.rfind(kClass, version);  // objects within objects: the innermost
+  if (version == std::string::npos || name == std::string::npos) return {};
+  return up_to_quote(text, name + kClass.size()) + " of version " +
+         up_to_quote(text, version + kVersion.size());
+}
+
 std::string explain(const std::exception& error) {
   // MRPT puts a line of its own before.
   const std::string all = error.what();
   const auto picture = all.find(kBrokenJpeg);
   if (picture != std::string::npos) return all.substr(picture, all.find('\n', picture) - picture);
+  const std::string newer = class_of_newer_version(all);
+  if (!newer.empty())
+    return "class " + newer + " is not known here: the log was made by a newer MRPT, or is damaged";
   std::string text = one_line(error);
   const auto from = text.find('\'');
   const auto to = text.find('\'', from + 1);
