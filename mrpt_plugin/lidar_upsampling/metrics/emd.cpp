@@ -40,7 +40,9 @@ Values exp_of(const Values& values) {
                         1.6666665459e-1F) *
                            r +
                        5.0000001201e-1F;
-    const Eigen::Array4i exponent = (n + 127).shiftLeft<23>();
+    // Not shiftLeft(), which Eigen 5.0 does not compile.
+    Eigen::Array4i exponent = n + 127;
+    for (int& value : exponent) value <<= 23;
     Four power;
     std::memcpy(power.data(), exponent.data(), sizeof(power));
     result.segment<4>(i) = power * (slope * r.square() + r + 1.F);
