@@ -103,19 +103,5 @@ TEST(ZstdLogs, a_frame_that_claims_a_hundred_gigabytes_is_refused_without_taking
   EXPECT_NE(piece_by_piece.error.find("damaged"), std::string::npos) << piece_by_piece.error;
 }
 
-TEST(ZstdLogs, a_class_of_a_newer_version_is_named) {
-  const auto object = odometry(1);
-  Bytes bytes = entry_of(object).bytes;
-  const std::string name = object->GetRuntimeClass()->className;
-  const auto at = std::search(bytes.begin(), bytes.end(), name.begin(), name.end());
-  ASSERT_NE(at, bytes.end());
-  *(at + static_cast<long>(name.size())) = 99;  // its version
-  const ReadResult result = read_again(joined({entry_of(odometry(0)).bytes, bytes}));
-  EXPECT_EQ(result.num_good, 1);
-  EXPECT_NE(result.error.find("newer MRPT"), std::string::npos) << result.error;
-  EXPECT_NE(result.error.find("CObservationOdometry"), std::string::npos) << result.error;
-  EXPECT_EQ(result.error.find('\n'), std::string::npos) << result.error;
-}
-
 }  // namespace
 }  // namespace lidar_upsampling

@@ -49,6 +49,15 @@ std::string class_of_newer_version(const std::string& text) {
          up_to_quote(text, version + kVersion.size());
 }
 
+// The class that this MRPT does not know, be it that of an object within one; empty: that is not
+// what happened.
+std::string unknown_class(const std::string& text) {
+  const auto end = text.find("not registered");
+  const auto line = text.rfind('\n', end) + 1;
+  const auto name = text.find('\'', line);
+  return end == std::string::npos || name > end ? "" : up_to_quote(text, name + 1);
+}
+
 std::string explain(const std::exception& error) {
   // MRPT puts a line of its own before.
   const std::string all = error.what();
@@ -57,12 +66,11 @@ std::string explain(const std::exception& error) {
   const std::string newer = class_of_newer_version(all);
   if (!newer.empty())
     return "class " + newer + " is not known here: the log was made by a newer MRPT, or is damaged";
-  std::string text = one_line(error);
-  const auto from = text.find('\'');
-  const auto to = text.find('\'', from + 1);
-  if (text.find("not registered") == std::string::npos || to == std::string::npos) return text;
-  return "class " + text.substr(from + 1, to - from - 1) +
-         " is not known here: the log was made by a newer MRPT, or needs a plugin";
+  const std::string unknown = unknown_class(all);
+  if (!unknown.empty())
+    return "class " + unknown +
+           " is not known here: the log was made by a newer MRPT, or needs a plugin";
+  return one_line(error);
 }
 
 // MRPT stores colour pictures as JPEG unless told otherwise: what we write shall lose nothing.
