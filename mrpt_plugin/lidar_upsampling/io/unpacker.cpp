@@ -13,6 +13,8 @@
 #include <system_error>
 #include <utility>
 
+#include "lidar_upsampling/io/gzip_members.h"
+
 namespace lidar_upsampling {
 namespace {
 
@@ -122,6 +124,7 @@ std::size_t Unpacker::inflate(std::vector<std::uint8_t>& block) {
       if (!has_input && done == before) return end(done, "the gzip stream is cut off");
       continue;
     }
+    member_begin_ = file_position();
     if (!starts_member())
       return size_ == 0 ? end(done, {})
                         : end(done, "the gzip stream is damaged: what follows it is none");
@@ -129,6 +132,31 @@ std::size_t Unpacker::inflate(std::vector<std::uint8_t>& block) {
     state.crc_flag = ISAL_GZIP;
   }
   return done;
+}
+
+std::uint64_t unpacked_size_of(const std::string& path) {
+  Unpacker unpacker(path);
+  std::vector<std::uint8_t> block(1U << 20U);
+  std::uint64_t size = 0;
+  do {
+    while (const std::size_t step = unpacker.unpack(block)) size += step;
+  } while (unpacker.resume());
+  return size;
+}
+
+std::optional<std::uint64_t> Unpacker::resume() {
+  if (kind_ != Kind::gzip || !defect_) return {};
+  const std::uint64_t position = file_position();
+  const bool is_between = position == member_begin_;
+  const auto next = next_gzip_member(file_, member_begin_ + (is_between ? 0 : 1), is_between);
+  if (!next || lseek(file_, static_cast<off_t>(next->from), SEEK_SET) < 0) return {};
+  num_read_ = member_begin_ = next->from;
+  begin_ = size_ = 0;
+  is_at_end_ = false;
+  defect_.reset();
+  isal_inflate_reset(state_.get());
+  state_->crc_flag = next->has_header ? ISAL_GZIP : ISAL_GZIP_NO_HDR_VER;
+  return next->from > position ? next->from - position : 0;
 }
 
 }  // namespace lidar_upsampling

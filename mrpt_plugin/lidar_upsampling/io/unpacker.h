@@ -31,8 +31,14 @@ class Unpacker {
   /// end, clean or not.
   std::size_t unpack(std::vector<std::uint8_t>& block);
 
+  /// @brief Behind a defect, goes on with the next gzip member that can be unpacked.
+  /// @return how many bytes of the file were not; none: there is none, or the file is not to be
+  /// read but once.
+  std::optional<std::uint64_t> resume();
+
   /// Why the end is no clean one.
   [[nodiscard]] const std::optional<std::string>& defect() const { return defect_; }
+  [[nodiscard]] bool is_packed() const { return kind_ != Kind::plain; }
   [[nodiscard]] std::uint64_t file_size() const { return file_size_; }
   /// Bytes of the file that have been used.
   [[nodiscard]] std::uint64_t file_position() const;
@@ -49,6 +55,7 @@ class Unpacker {
 
   int file_ = -1;
   std::uint64_t file_size_ = 0, num_read_ = 0;
+  std::uint64_t member_begin_ = 0;  // of the file, where one begins or is to begin
   Kind kind_ = Kind::plain;
   bool is_at_end_ = false;
   std::vector<std::uint8_t> input_;
@@ -56,5 +63,9 @@ class Unpacker {
   std::unique_ptr<inflate_state> state_;
   std::optional<std::string> defect_;
 };
+
+/// @brief How much a file has unpacked, up to a defect, and behind it where that can be.
+/// @throw std::runtime_error as Unpacker
+[[nodiscard]] std::uint64_t unpacked_size_of(const std::string& path);
 
 }  // namespace lidar_upsampling
