@@ -66,10 +66,21 @@ void read_dgp(const FileSet& files, Random&) {
 
 Target target_of(const std::string& name, Files (*files)(), void (*read)(const FileSet&, Random&)) {
   const auto set = std::make_shared<std::unique_ptr<FileSet>>();
-  return {name, [name, files, read, set](Random& random) {
-            if (*set == nullptr) *set = std::make_unique<FileSet>(name, files());
-            (*set)->spoil(random);
-            read(**set, random);
+  const auto made = [name, files, set]() -> FileSet& {
+    if (*set == nullptr) *set = std::make_unique<FileSet>(name, files());
+    return **set;
+  };
+  return {name,
+          [made, read](Random& random) {
+            made().spoil(random);
+            read(made(), random);
+          },
+          [made, read] {
+            made().mend();
+            for (const std::uint64_t seed : {1, 2, 3, 4}) {
+              Random random(seed);
+              read(made(), random);
+            }
           }};
 }
 

@@ -28,9 +28,13 @@ FileSet::FileSet(const std::string& name, std::map<std::string, std::string> fil
   }
 }
 
-void FileSet::spoil(Random& random) {
+void FileSet::mend() {
   for (const auto& [file, content] : spoilt_) write_file_of(path(file), content);
   spoilt_.clear();
+}
+
+void FileSet::spoil(Random& random) {
+  mend();
   const std::size_t times = random.one_in(4) ? 2 : 1;
   for (std::size_t i = 0; i < times; ++i) spoil_one(random);
 }

@@ -18,6 +18,8 @@ class FileSet {
   [[nodiscard]] const std::string& folder() const { return folder_; }
   [[nodiscard]] std::string path(const std::string& file) const { return folder_ + "/" + file; }
 
+  /// All are good.
+  void mend();
   /// @brief All are good but one or two, which are damaged, empty or not there.
   void spoil(Random& random);
 

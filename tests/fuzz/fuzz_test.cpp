@@ -33,6 +33,8 @@ TEST_P(Fuzzing, damaged_input_is_used_as_far_as_it_is_good_or_refused_in_a_line)
   }
 }
 
+TEST_P(Fuzzing, whole_input_is_read) { EXPECT_NO_THROW(target_named(GetParam()).run_whole()); }
+
 std::vector<std::string> names() {
   std::vector<std::string> all;
   for (const Target& target : all_targets()) all.push_back(target.name);

@@ -40,13 +40,18 @@ std::vector<std::string> drawn_settings(Random& random) {
   return sets;
 }
 
-DensifyJob drawn_job(Random& random) {
+DensifyJob job_with(const std::vector<std::string>& settings) {
   DensifyJob job;
   job.input = in_work_folder("in.rawlog");
   job.output = in_work_folder("out.rawlog");
   job.overwrite = true;
+  load_settings(job, "", settings, "");
+  return job;
+}
+
+DensifyJob drawn_job(Random& random) {
+  DensifyJob job = job_with(drawn_settings(random));
   job.accept_truncated = !random.one_in(4);
-  load_settings(job, "", drawn_settings(random), "");
   return job;
 }
 
@@ -77,12 +82,20 @@ void densify_log(const DensifyJob& job, Random& random) {
   std::ostringstream text;
   write_json(report, text);
   text << summary(report);
-  if (random.one_in(6)) static_cast<void>(to_text(check_log(job, nullptr)));
+  if (random.one_in(6)) static_cast<void>(to_text(check_log(job, [](double) {})));
 }
 
 void run_log(const LogSeed& seed, Random& random) {
   write_file_of(in_work_folder("in.rawlog"), damaged_log(seed, random));
   densify_log(drawn_job(random), random);
+}
+
+void run_whole_log(const LogSeed& seed) {
+  write_file_of(in_work_folder("in.rawlog"), whole_log(seed));
+  DensifyJob job = job_with({});
+  const DensifyReport report = densify(job, nullptr);
+  check_output(job);
+  if (report.num_virtual_scans == 0) throw Finding("no virtual scan is made of " + seed.name);
 }
 
 Role role_of(const mrpt::obs::CObservation& observation) {
@@ -96,7 +109,7 @@ mrpt::obs::CObservation::Ptr copy_of(const mrpt::serialization::CSerializable::P
 }
 
 // As drivers hand them over, which no file has made sure that they fit together.
-void run_live(Random& random) {
+void run_live(Random& random, bool spoils) {
   DensifyJob job = drawn_job(random);
   job.config.mode = "causal";
   Messages messages;
@@ -110,7 +123,7 @@ void run_live(Random& random) {
   for (const auto& object : random.pick(log_seeds()).objects) {
     const auto observation = copy_of(object);
     if (!observation) continue;
-    if (random.one_in(4)) spoil(*observation, random, Sizes::changed);
+    if (spoils && random.one_in(4)) spoil(*observation, random, Sizes::changed);
     Arrived arrived;
     arrived.observation = observation;
     arrived.role = role_of(*observation);
@@ -128,8 +141,13 @@ void run_live(Random& random) {
 std::vector<Target> log_targets() {
   std::vector<Target> targets;
   for (const LogSeed& seed : log_seeds())
-    targets.push_back({seed.name, [&seed](Random& random) { run_log(seed, random); }});
-  targets.push_back({"live", run_live});
+    targets.push_back({seed.name, [&seed](Random& random) { run_log(seed, random); },
+                       [&seed] { run_whole_log(seed); }});
+  targets.push_back({"live", [](Random& random) { run_live(random, true); },
+                     [] {
+                       Random random(1);
+                       run_live(random, false);
+                     }});
   return targets;
 }
 

@@ -23,6 +23,8 @@ struct Target {
   std::string name;
   /// Makes one and goes with it through the library. What a tool would tell its user is thrown.
   std::function<void(Random&)> run;
+  /// The same with one that nothing is wrong with, which throws nothing.
+  std::function<void()> run_whole;
 };
 
 /// Logs of every carrier, through densification to a log again.

@@ -26,12 +26,20 @@ namespace {
 Target target_of(const std::string& name,
                  const std::function<std::map<std::string, std::string>()>& files,
                  const std::function<void(const FileSet&)>& read) {
-  return {name, [name, files, read](Random& random) {
-            static std::map<std::string, FileSet> sets;
-            auto known = sets.find(name);
-            if (known == sets.end()) known = sets.emplace(name, FileSet(name, files())).first;
-            known->second.spoil(random);
-            read(known->second);
+  const auto made = [name, files]() -> FileSet& {
+    static std::map<std::string, FileSet> sets;
+    auto known = sets.find(name);
+    if (known == sets.end()) known = sets.emplace(name, FileSet(name, files())).first;
+    return known->second;
+  };
+  return {name,
+          [made, read](Random& random) {
+            made().spoil(random);
+            read(made());
+          },
+          [made, read] {
+            made().mend();
+            read(made());
           }};
 }
 

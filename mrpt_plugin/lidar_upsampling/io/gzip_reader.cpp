@@ -6,12 +6,12 @@
 #include <condition_variable>
 #include <deque>
 #include <filesystem>
+#include <limits>
 #include <mutex>
 #include <thread>
 #include <utility>
 
 #include "lidar_upsampling/io/reading_guard.h"
-#include "lidar_upsampling/io/unpacker.h"
 
 namespace lidar_upsampling {
 
@@ -163,7 +163,7 @@ bool RecordingGzipReader::look_ahead() {
 }
 
 std::uint64_t RecordingGzipReader::skip_to(
-    const std::function<bool(const std::uint8_t*, std::size_t)>& begins, std::size_t least) {
+    const std::function<bool(const std::uint8_t*, std::size_t)>& begins, std::uint64_t least) {
   position_ -= record_.size();
   again_.erase(again_.begin(), again_.begin() + static_cast<std::ptrdiff_t>(again_begin_));
   again_.insert(again_.begin(), record_.begin(), record_.end());
@@ -184,6 +184,15 @@ std::optional<std::uint64_t> RecordingGzipReader::bytes_from_record_on() {
   if (!std::filesystem::is_regular_file(path_)) return {};
   if (!unpacked_size_) unpacked_size_ = unpacked_size_of(path_);
   return *unpacked_size_ - (position_ - record_.size());
+}
+
+std::uint64_t RecordingGzipReader::doubtful_from_record_on() {
+  if (!std::filesystem::is_regular_file(path_)) return std::numeric_limits<std::uint64_t>::max();
+  if (!doubtful_) doubtful_ = doubtful_parts_of(path_);
+  const std::uint64_t begin = position_ - record_.size();
+  for (const UnpackedPart& part : *doubtful_)
+    if (part.begin <= begin && begin < part.end) return part.end - begin;
+  return 0;
 }
 
 std::vector<std::uint8_t> RecordingGzipReader::take_record() {

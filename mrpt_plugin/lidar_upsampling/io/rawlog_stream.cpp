@@ -11,6 +11,7 @@
 #include <mrpt/obs/registerAllClasses.h>
 #include <mrpt/system/datetime.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <system_error>
 
@@ -149,7 +150,7 @@ bool RawlogReader::goes_on_behind_end() {
   return true;
 }
 
-void RawlogReader::find_next(std::size_t least) {
+void RawlogReader::find_next(std::uint64_t least) {
   const auto begins = [this](const std::uint8_t* bytes, std::size_t size) {
     return begins_object(bytes, size, has_frames_);
   };
@@ -198,7 +199,7 @@ std::optional<RawlogEntry> RawlogReader::next() {
     RawlogEntry entry;
     if (const auto reason = read_object(entry)) {
       meet_damage(*reason);
-      find_next(1);
+      find_next(std::max<std::uint64_t>(1, stream_->doubtful_from_record_on()));
       continue;
     }
     entry.bytes = stream_->take_record();

@@ -91,7 +91,7 @@ class RawlogReader {
   [[nodiscard]] std::optional<std::string> read_object(RawlogEntry& entry);
   void meet_damage(const std::string& reason);
   [[nodiscard]] bool goes_on_behind_end();
-  void find_next(std::size_t least);
+  void find_next(std::uint64_t least);
   void note_good(const RawlogEntry& entry);
   std::nullopt_t end();
 

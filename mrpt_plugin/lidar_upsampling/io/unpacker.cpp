@@ -62,7 +62,9 @@ std::uint64_t Unpacker::file_position() const { return num_read_ - size_; }
 
 std::size_t Unpacker::unpack(std::vector<std::uint8_t>& block) {
   if (is_at_end_) return 0;
-  return kind_ == Kind::gzip ? inflate(block) : copy(block);
+  const std::size_t done = kind_ == Kind::gzip ? inflate(block) : copy(block);
+  unpacked_size_ += done;
+  return done;
 }
 
 // What is left moves to the front, so that two bytes of a header are always seen together.
@@ -125,6 +127,7 @@ std::size_t Unpacker::inflate(std::vector<std::uint8_t>& block) {
       continue;
     }
     member_begin_ = file_position();
+    sound_size_ = unpacked_size_ + done;
     if (!starts_member())
       return size_ == 0 ? end(done, {})
                         : end(done, "the gzip stream is damaged: what follows it is none");
@@ -144,6 +147,18 @@ std::uint64_t unpacked_size_of(const std::string& path) {
   return size;
 }
 
+std::vector<UnpackedPart> doubtful_parts_of(const std::string& path) {
+  Unpacker unpacker(path);
+  std::vector<std::uint8_t> block(1U << 20U);
+  std::vector<UnpackedPart> parts;
+  do {
+    while (unpacker.unpack(block) > 0) continue;
+    if (unpacker.is_packed() && unpacker.defect())
+      parts.push_back({unpacker.sound_size(), unpacker.unpacked_size()});
+  } while (unpacker.resume());
+  return parts;
+}
+
 std::optional<std::uint64_t> Unpacker::resume() {
   if (kind_ != Kind::gzip || !defect_) return {};
   const std::uint64_t position = file_position();
@@ -151,6 +166,7 @@ std::optional<std::uint64_t> Unpacker::resume() {
   const auto next = next_gzip_member(file_, member_begin_ + (is_between ? 0 : 1), is_between);
   if (!next || lseek(file_, static_cast<off_t>(next->from), SEEK_SET) < 0) return {};
   num_read_ = member_begin_ = next->from;
+  sound_size_ = unpacked_size_;
   begin_ = size_ = 0;
   is_at_end_ = false;
   defect_.reset();
