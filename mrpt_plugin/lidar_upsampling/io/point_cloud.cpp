@@ -72,7 +72,7 @@ void read_point_cloud(const mrpt::obs::CObservationPointCloud& observation, Lida
   const auto intensity_of = intensity_reader(map);
   for (std::size_t i = 0; i < x.size(); ++i) {
     const Eigen::Vector3f point(x[i], y[i], z[i]);
-    if (!point.allFinite() || point.isZero(0.F)) continue;
+    if (!is_measured(point)) continue;
     scan.points.push_back(point);
     if (intensity_of) scan.intensity.push_back(intensity_of(i));
   }

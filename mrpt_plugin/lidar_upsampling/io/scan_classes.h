@@ -13,6 +13,13 @@
 /// adds the valid points and what belongs to them to a scan that has none.
 namespace lidar_upsampling {
 
+/// @brief Whether a point was measured: finite, no further away than any LiDAR sees, and not in the
+/// origin, which is MRPT's "no return".
+[[nodiscard]] inline bool is_measured(const Eigen::Vector3f& point) {
+  constexpr float kFarthest = 1e6F;  // m
+  return point.allFinite() && point.cwiseAbs().maxCoeff() < kFarthest && !point.isZero(0.F);
+}
+
 /// @brief Points embedded: CPointsMapXYZI, or CSimplePointsMap without intensities. Ring, column
 /// and time have no place there.
 [[nodiscard]] mrpt::obs::CObservationPointCloud::Ptr make_point_cloud(const LidarScan& scan);
