@@ -13,8 +13,10 @@
 #include <iostream>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "lidar_upsampling/io/temporary_names.h"
+#include "lidar_upsampling/nearest_word.h"
 #include "lidar_upsampling/text.h"
 
 namespace lidar_upsampling {
@@ -22,6 +24,19 @@ namespace lidar_upsampling {
 constexpr int kDone = 0;
 constexpr int kFailed = 1;
 constexpr int kWrongUsage = 2;
+
+/// Says which option a misspelt one may have been meant for.
+inline void tell_what_was_meant(const CLI::App& app) {
+  std::vector<std::string> known;
+  for (const CLI::Option* option : app.get_options())
+    for (const std::string& name : option->get_lnames()) known.push_back("--" + name);
+  for (const std::string& word : app.remaining()) {
+    const std::string name = word.substr(0, word.find('='));
+    if (name.rfind("--", 0) != 0) continue;
+    const std::string meant = did_you_mean(name, known);
+    if (!meant.empty()) std::cerr << name << ": there is no such option" << meant << "\n";
+  }
+}
 
 /// @brief What every tool's main does: parses, works, and says in one line on stderr what failed; a
 /// signal that ends it leaves nothing half done.
@@ -31,7 +46,9 @@ inline int run_tool(CLI::App& app, int argc, char** argv, const std::function<vo
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? kDone : kWrongUsage;
+    if (app.exit(error) == 0) return kDone;
+    tell_what_was_meant(app);
+    return kWrongUsage;
   }
   remove_temporaries_on_signals();
   try {

@@ -44,7 +44,14 @@ struct LogCheck {
 [[nodiscard]] LogCheck check_log(const DensifyJob& job,
                                  const std::function<void(double)>& progress);
 
-/// One item per line, for people.
+/// @brief The time offset of the pictures that is to be set in place of the one in force; none:
+/// they differ by no more than can be told.
+[[nodiscard]] std::optional<double> offset_to_set_ms(const CameraCheck& camera, double in_force_ms);
+
+/// Whether a log can be densified, and what is to be set for it, in a line.
+[[nodiscard]] std::string verdict_of(const LogCheck& check);
+
+/// One item per line, for people; the verdict last.
 [[nodiscard]] std::string to_text(const LogCheck& check);
 
 }  // namespace lidar_upsampling

@@ -37,7 +37,7 @@ std::string lens_of(const CameraModel& m) {
          " " + fixed(m.fy, 1) + ", centre " + fixed(m.cx, 1) + " " + fixed(m.cy, 1) + ", " + model;
 }
 
-std::string time_offset_of(const CameraCheck& camera) {
+std::string time_offset_of(const CameraCheck& camera, double in_force_ms) {
   if (!camera.time_offset)
     return "cannot be told: it takes a vehicle that drives, past poles, cars and corners, and some "
            "ten pictures of that";
@@ -48,7 +48,9 @@ std::string time_offset_of(const CameraCheck& camera) {
            fixed(1e3 * t.sigma_s, 1) + "; a faster drive tells more";
   return "pictures are taken " + fixed(std::abs(ms), 1) + " ms " + (ms < 0 ? "after" : "before") +
          " their stamps, give or take " + fixed(1e3 * t.sigma_s, 1) + " (" +
-         std::to_string(t.num_pictures) + " pictures): camera_time_offset_ms = " + fixed(ms, 1);
+         std::to_string(t.num_pictures) + " pictures): " +
+         (offset_to_set_ms(camera, in_force_ms) ? "camera_time_offset_ms = " + fixed(ms, 1)
+                                                : "no other than the one in force");
 }
 
 }  // namespace
@@ -77,10 +79,12 @@ std::string to_text(const LogCheck& check) {
          << "lens          " << label << ' ' << lens_of(camera.camera.model) << '\n'
          << "in view       " << label << " sees " << fixed(100 * camera.share_in_view, 1)
          << " % of a scan's points (" << camera.num_compared << " pictures beside scans)\n"
-         << "time offset   " << label << ' ' << time_offset_of(camera)
+         << "time offset   " << label << ' '
+         << time_offset_of(camera, check.time_offset_in_force_ms)
          << " (in force: " << fixed(check.time_offset_in_force_ms, 1) << ")\n";
     if (!camera.overlay.empty()) text << "overlay       " << camera.overlay << '\n';
   }
+  text << "verdict       " << verdict_of(check) << '\n';
   return text.str();
 }
 

@@ -29,7 +29,7 @@ class LogAhead {
   [[nodiscard]] bool spans() const;
   /// Whether all entries have been read, if they have not been given away.
   [[nodiscard]] bool is_at_end() const { return is_at_end_; }
-  /// Why the log ends there, where that is not its clean end.
+  /// What of the log was left out, once it is at its end.
   [[nodiscard]] const std::optional<std::string>& corruption() const { return reader_.damage(); }
 
   /// For a log of which all is known otherwise. What has been read stays.

@@ -36,8 +36,8 @@ class LogInput {
   /// @throw std::runtime_error damaged
   void skip_to(Stamp stamp);
 
-  /// @brief The next entry, none after the last. Damage is an error, or with `accept_truncated` the
-  /// end and a warning.
+  /// @brief The next entry, none after the last. Damage is an error, or with `accept_truncated` is
+  /// left out with a warning.
   /// @param end the first entry that has this stamp, or a later one, is none any more.
   /// @throw std::runtime_error damaged; as Densification::learn()
   [[nodiscard]] std::optional<RawlogEntry> next(Densification& run, std::optional<Stamp> end = {});

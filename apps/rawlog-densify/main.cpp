@@ -49,7 +49,7 @@ void add_settings(CLI::App& app, Request& request) {
 void add_files(CLI::App& app, Request& request) {
   DensifyJob& job = request.job;
   app.add_option(
-      "-i,--input", request.inputs,
+      "input,-i,--input", request.inputs,
       "the log to densify (.rawlog, plain, gzip or zstd); of several, output, report, film "
       "and pictures are folders");
   app.add_option("-o,--output", job.output, "the densified log");
@@ -75,7 +75,7 @@ void add_ways_to_work(CLI::App& app, Request& request) {
       ->check(CLI::Range(0., 60.));
   app.add_flag("--overwrite", request.job.overwrite, "replace an existing output");
   app.add_flag("--accept-truncated", request.job.accept_truncated,
-               "of a damaged log, take what comes before the damage");
+               "of a damaged log, take all that can be read, before and behind the damage");
   app.add_flag("--check", request.check,
                "only look at --input: its streams, and how camera and LiDAR fit in space and time; "
                "with --pictures, a scan on a picture of each camera");
@@ -89,6 +89,7 @@ void add_ways_to_work(CLI::App& app, Request& request) {
 std::string densify_one(DensifyJob job, const std::string& report_path, const PartOptions& parts,
                         const std::function<void(double)>& progress) {
   // Whether it can be written is told before the work.
+  check_room({"--output", job.output}, job.input, job.config.compression == Compression::none);
   std::optional<TextFile> file;
   if (!report_path.empty()) file.emplace(report_path, OutputOptions{true, true});
   job.rows_beside = report_path;

@@ -39,6 +39,28 @@ std::string resampling_line(const std::map<std::string, std::size_t>& resampling
   return text.str();
 }
 
+// At how many images objects that move were measured, or else.
+std::string sights_line(const std::map<std::string, std::size_t>& object_status) {
+  const auto count = [&](MotionStatus status) {
+    const auto found = object_status.find(to_string(status));
+    return found == object_status.end() ? std::size_t{0} : found->second;
+  };
+  const std::size_t measured = count(MotionStatus::moving);
+  const std::size_t predicted = count(MotionStatus::predicted);
+  const std::size_t left = count(MotionStatus::too_few_points) + count(MotionStatus::no_consensus);
+  const std::size_t all = measured + predicted;
+  if (all + left == 0) return {};
+  std::ostringstream text;
+  text << "sights of movers  ";
+  if (all > 0)
+    text << fixed(100. * static_cast<double>(measured) / static_cast<double>(all), 1, 0)
+         << " % measured on the picture, "
+         << fixed(100. * static_cast<double>(predicted) / static_cast<double>(all), 1, 0)
+         << " % predicted by their tracks; ";
+  text << left << " of objects that the picture told nothing of were left standing\n";
+  return text.str();
+}
+
 }  // namespace
 
 void DensifyReport::add(const VirtualScan& scan) {
@@ -100,7 +122,9 @@ std::map<std::string, std::size_t> DensifyReport::told_warnings() const {
 
 std::string summary(const DensifyReport& report) {
   std::ostringstream text;
-  text << "mode              " << report.mode << (report.hindsight ? ", with scans to come" : "")
+  text << "input             " << report.input << '\n'
+       << "output            " << report.output << '\n'
+       << "mode              " << report.mode << (report.hindsight ? ", with scans to come" : "")
        << '\n'
        << "ego-motion        " << report.ego_source << '\n'
        << "object candidates " << report.detector << '\n'
@@ -113,7 +137,7 @@ std::string summary(const DensifyReport& report) {
   for (const auto& [status, count] : report.object_status)
     text << "  " << status << std::string(16 - std::min<std::size_t>(15, status.size()), ' ')
          << count << '\n';
-  text << resampling_line(report.resampling);
+  text << sights_line(report.object_status) << resampling_line(report.resampling);
   if (report.num_extrapolated > 0)
     text << "ego-motion was extrapolated for " << report.num_extrapolated << " virtual scans\n";
   if (!report.stage_order.empty()) text << "stage                   runs  median ms  p95 ms\n";

@@ -2,6 +2,7 @@
 // Copyright (c) 2026, the lidar_upsampling authors
 #pragma once
 
+#include <functional>
 #include <iosfwd>
 #include <map>
 #include <memory>
@@ -74,6 +75,10 @@ class Timed {
 /// @brief Everything, for programs: counts, each stage's median, p95 and total, a row per object
 /// and image.
 [[nodiscard]] nlohmann::json to_json(const DensifyReport& report);
+
+/// The rows of its objects in view, one by one.
+void for_each_object(const DensifyReport& report,
+                     const std::function<void(const nlohmann::json& row)>& use);
 
 /// @brief The same as text, in memory that does not grow with the log.
 void write_json(const DensifyReport& report, std::ostream& out);

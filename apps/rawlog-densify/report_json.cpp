@@ -143,6 +143,11 @@ nlohmann::json to_json(const DensifyReport& report) {
   return json;
 }
 
+void for_each_object(const DensifyReport& report,
+                     const std::function<void(const nlohmann::json& row)>& use) {
+  for_each_row(report, kInView, use);
+}
+
 void write_json(const DensifyReport& report, std::ostream& out) {
   const nlohmann::json head = head_json(report);
   const char* before = "{\n ";

@@ -65,8 +65,9 @@ class Walk {
     if (!job.paper_row) return;
     try {
       paper_.emplace(job.paper, without_virtual(input, result.virtual_label), paper_report_);
-      paper_report_.rows =
-          std::make_shared<ReportRows>((std::filesystem::temp_directory_path() / "rows").string());
+      if (labels_)
+        paper_report_.rows = std::make_shared<ReportRows>(
+            (std::filesystem::temp_directory_path() / "rows").string());
     } catch (const std::exception& error) {
       result_.notes.push_back(std::string("no row `paper`: ") + error.what());
     }
@@ -175,8 +176,12 @@ class Walk {
     }
     result_.labels[Row::ego] = labels_->score({});
     result_.labels[Row::constant_velocity] = labels_->score(labels_->constant_velocity());
-    if (paper_)
-      result_.labels[Row::paper] = labels_->score(reported_objects(to_json(paper_report_)));
+    if (paper_) {
+      std::vector<ReportedObject> told;
+      for_each_object(paper_report_,
+                      [&](const nlohmann::json& row) { told.push_back(reported_object(row)); });
+      result_.labels[Row::paper] = labels_->score(told);
+    }
     if (job_.report != nullptr) result_.labels[Row::ours] = labels_->score(job_.report->objects);
   }
 

@@ -155,7 +155,7 @@ struct EvaluationJob {
   std::string reference, input;
   std::string label;                  ///< empty: the one that has virtual scans
   std::string truth_objects;          ///< empty: none
-  bool accept_truncated = false;      ///< take what comes before the damage of a log
+  bool accept_truncated = false;      ///< take a damaged log without the damage
   double tolerance_s = 0.1;           ///< to the nearest withheld scan
   const RunReport* report = nullptr;  ///< of the densification; null: row `ours` is not labelled
   bool paper_row = true;

@@ -38,7 +38,7 @@ void add_options(CLI::App& app, Request& request) {
                      "--report tells, --html and --report tell of coverage, tracks and times")
           ->expected(1)
           ->take_all();
-  app.add_option("-i,--input", request.inputs,
+  app.add_option("input,-i,--input", request.inputs,
                  "the densified log; several are judged together, each with its --reference")
       ->required()
       ->expected(1)
@@ -73,7 +73,7 @@ void add_options(CLI::App& app, Request& request) {
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
   app.add_flag("--accept-truncated", job.accept_truncated,
-               "of a damaged log, take what comes before the damage");
+               "of a damaged log, take all that can be read, before and behind the damage");
   app.add_flag("--exact-emd", job.options.exact_emd,
                "the exact assignment of 2048 points beside the published EMD (slow)");
   app.add_option("--config", request.config,

@@ -11,6 +11,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "lidar_upsampling/nearest_word.h"
 #include "lidar_upsampling/settings.h"
 #include "lidar_upsampling/text.h"
 
@@ -86,6 +87,23 @@ bool belongs_to_driver(const std::string& key) {
   return driver_keys.count(key) > 0;
 }
 
+std::string those_there_are(const std::string& meant, const std::vector<std::string>& known) {
+  return meant + (meant.empty() ? "; there are " : " There are ") + joined(known, ", ");
+}
+
+// Of the same section, or of that name in another.
+std::string meant_by(const std::string& key, const std::set<std::string>& known) {
+  const std::string meant = did_you_mean(key, {known.begin(), known.end()});
+  if (!meant.empty()) return meant;
+  Config defaults;
+  for (const SettingSection& other : settings_of(defaults))
+    for (const Setting& setting : other.settings)
+      if (setting.key == key)
+        return "; did you mean that of [" +
+               (other.name.empty() ? std::string(kMainSection) : other.name) + "]?";
+  return {};
+}
+
 void reject_unknown_keys(const SettingSection& section, const CConfigFileBase& source,
                          const std::string& name) {
   std::set<std::string> known;
@@ -95,9 +113,9 @@ void reject_unknown_keys(const SettingSection& section, const CConfigFileBase& s
   source.getAllKeys(name, keys);
   for (const std::string& key : keys)
     if (known.count(key) == 0 && !(is_of_driver && belongs_to_driver(key)))
-      throw std::invalid_argument("[" + name + "] " + key +
-                                  ": there is no such setting; there are " +
-                                  joined({known.begin(), known.end()}, ", "));
+      throw std::invalid_argument(
+          "[" + name + "] " + key + ": there is no such setting" +
+          those_there_are(meant_by(key, known), {known.begin(), known.end()}));
 }
 
 void load(const SettingSection& section, const CConfigFileBase& source, const std::string& name) {
@@ -209,8 +227,9 @@ void check_sections(const CConfigFileBase& source) {
     if (section.empty() || section.rfind("camera.", 0) == 0 || section.rfind("lidar.", 0) == 0)
       continue;
     if (std::find(known.begin(), known.end(), section) == known.end())
-      throw std::invalid_argument("[" + section + "]: there is no such section; there are " +
-                                  joined(known, ", ") + ", camera.<LABEL>, lidar.<LABEL>");
+      throw std::invalid_argument("[" + section + "]: there is no such section" +
+                                  those_there_are(did_you_mean(section, known), known) +
+                                  ", camera.<LABEL>, lidar.<LABEL>");
   }
 }
 

@@ -9,21 +9,21 @@
 namespace lidar_upsampling {
 namespace {
 
-std::string quantiles(const Durations& durations) {
+std::string quantiles(const Latencies& latencies) {
   std::ostringstream text;
-  text << std::fixed << std::setprecision(1) << "median " << durations.quantile_ms(0.5) << ", p95 "
-       << durations.quantile_ms(0.95) << ", max " << durations.quantile_ms(1) << " ms";
+  text << std::fixed << std::setprecision(1) << "median " << latencies.quantile_ms(0.5) << ", p95 "
+       << latencies.quantile_ms(0.95) << ", max " << latencies.quantile_ms(1) << " ms";
   return text.str();
 }
 
 }  // namespace
 
-void Durations::add(double ms) {
+void Latencies::add(double ms) {
   ++tenths_[static_cast<int>(std::lround(10 * ms))];
   ++count_;
 }
 
-double Durations::quantile_ms(double share) const {
+double Latencies::quantile_ms(double share) const {
   if (count_ == 0) return 0;
   auto rank = std::lround(share * static_cast<double>(count_ - 1));
   for (const auto& [tenths, count] : tenths_) {

@@ -8,8 +8,8 @@
 
 namespace lidar_upsampling {
 
-/// @brief Durations in ms, kept to a tenth, so that a sensor may run for months.
-class Durations {
+/// @brief Times in ms, kept to a tenth, so that a sensor may run for months.
+class Latencies {
  public:
   void add(double ms);
   [[nodiscard]] std::size_t count() const { return count_; }
@@ -31,8 +31,8 @@ struct SensorStatistics {
   std::size_t num_late_images = 0;   ///< passed on without a virtual scan, as the work fell behind
   std::size_t num_late_scans = 0;    ///< passed on without becoming a key scan, likewise
   std::size_t num_out_of_order = 0;  ///< arrived after a later one had been passed on
-  Durations ready;                   ///< from an image's arrival until its virtual scan is made
-  Durations delivered;               ///< the same, until it is handed out
+  Latencies ready;                   ///< from an image's arrival until its virtual scan is made
+  Latencies delivered;               ///< the same, until it is handed out
 };
 
 /// A few lines for people.

@@ -14,6 +14,7 @@ namespace {
 using Frames = std::set<int>;
 
 std::string from_to(const Frames& frames) {
+  if (frames.empty()) return "none";
   return std::to_string(*frames.begin()) + " to " + std::to_string(*frames.rbegin());
 }
 

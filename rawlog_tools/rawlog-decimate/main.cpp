@@ -119,7 +119,7 @@ int main(int argc, char** argv) {
   lidar_upsampling::Options options;
   CLI::App app("Keeps every K-th observation of one sensor, and all else untouched.",
                "rawlog-decimate");
-  app.add_option("-i,--input", options.input, "The log to thin")->required();
+  app.add_option("input,-i,--input", options.input, "The log to thin")->required();
   app.add_option("-o,--output", options.output, "The log to write")->required();
   app.add_option("--label", options.label, "The sensor to thin")->required();
   app.add_option("--keep-every", options.keep_every, "K: of K observations one is kept")
@@ -129,7 +129,7 @@ int main(int argc, char** argv) {
       ->check(CLI::Range(0, 1000000000));
   app.add_flag("--overwrite", options.overwrite, "Replace an existing output");
   app.add_flag("--accept-truncated", options.accept_truncated,
-               "Of a damaged log, take what comes before the damage");
+               "Of a damaged log, take all that can be read, before and behind the damage");
   app.footer(
       "Example:\n  rawlog-decimate -i full.rawlog -o sparse.rawlog --label LIDAR --keep-every 2");
   return lidar_upsampling::run_tool(app, argc, argv, [&] { lidar_upsampling::decimate(options); });

@@ -117,7 +117,7 @@ int main(int argc, char** argv) {
   Options options;
   CLI::App app("Takes virtual or real scans out of a log, as files that other programs read",
                "rawlog-export");
-  app.add_option("-i,--input", options.input, "the log")->required();
+  app.add_option("input,-i,--input", options.input, "the log")->required();
   app.add_option("-o,--output", options.output, "folder for the files and their index.csv")
       ->required();
   app.add_option("--format", options.format,
@@ -139,7 +139,7 @@ int main(int argc, char** argv) {
   track->needs(report);
   app.add_flag("--overwrite", options.overwrite, "replace an export in the folder");
   app.add_flag("--accept-truncated", options.accept_truncated,
-               "of a damaged log, take what comes before the damage");
+               "of a damaged log, take all that can be read, before and behind the damage");
   app.callback([&] {
     if (options.format != "3Dscene" && (*report || *track))
       throw CLI::ValidationError("--report and --track need --format 3Dscene");

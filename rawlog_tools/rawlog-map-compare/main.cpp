@@ -81,7 +81,7 @@ int main(int argc, char** argv) {
   app.add_option(
       "--truth-objects", options.truth_objects,
       "The simulator's *_objects.csv, with *_ego.csv beside it: tells ghosts from the rest");
-  app.add_option("-i,--input", options.logs,
+  app.add_option("input,-i,--input", options.logs,
                  "Logs whose scans are mapped at the reference's poses");
   app.add_option("--simplemap", options.simplemaps, "What icp-slam or rbpf-slam wrote, as paths");
   app.add_option("--voxel", options.map.voxel_m, "Side of a voxel, m")
@@ -89,7 +89,7 @@ int main(int argc, char** argv) {
   app.add_option("--max-range", options.map.max_range_m, "Farther points are left out, m")
       ->check(CLI::Range(1., 1000.));
   app.add_flag("--accept-truncated", options.accept_truncated,
-               "Of a damaged log, take what comes before the damage");
+               "Of a damaged log, take all that can be read, before and behind the damage");
   app.callback([&] {
     if (options.logs.empty() && options.simplemaps.empty())
       throw CLI::ValidationError("give something to compare: --input or --simplemap");

@@ -10,6 +10,8 @@
 #include "lidar_upsampling/compat/mrpt.h"
 #include "lidar_upsampling/io/carriers.h"
 #include "lidar_upsampling/io/images.h"
+#include "lidar_upsampling/io/reading_guard.h"
+#include "lidar_upsampling/io/unpacker.h"
 #include "lidar_upsampling/units.h"
 
 namespace lidar_upsampling::maps {
@@ -24,11 +26,17 @@ mrpt::obs::CObservation::Ptr scan_of(const mrpt::obs::CSensoryFrame& frame) {
   return nullptr;
 }
 
+mrpt::maps::CSimpleMap map_in(const std::string& path) {
+  const ReadingGuard guard([&] { return unpacked_size_of(path); });
+  mrpt::maps::CSimpleMap map;
+  if (!map.loadFromFile(path)) throw std::runtime_error(path + ": cannot read this simplemap");
+  return map;
+}
+
 }  // namespace
 
 PathErrors errors_of_path(const std::string& path, const Trajectory& T_world_vehicle) {
-  mrpt::maps::CSimpleMap map;
-  if (!map.loadFromFile(path)) throw std::runtime_error(path + ": cannot read this simplemap");
+  mrpt::maps::CSimpleMap map = map_in(path);
   PathErrors errors;
   std::optional<Pose> T_world_map;
   Eigen::Vector3d last_place = Eigen::Vector3d::Zero();

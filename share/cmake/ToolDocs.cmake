@@ -19,7 +19,8 @@ function(lidar_upsampling_document_tool name)
     add_custom_command(OUTPUT ${page}.gz
       COMMAND ${CMAKE_COMMAND} -D TOOL=$<TARGET_FILE:${name}> -D OUTPUT=${page} -D HELP2MAN=${HELP2MAN}
         -D VERSION=${PROJECT_VERSION} -P ${PROJECT_SOURCE_DIR}/share/cmake/make_man_page.cmake
-      DEPENDS ${name} ${PROJECT_SOURCE_DIR}/share/cmake/make_man_page.cmake)
+      DEPENDS ${name} ${PROJECT_SOURCE_DIR}/share/cmake/make_man_page.cmake
+        ${PROJECT_SOURCE_DIR}/share/cmake/man_sections.h2m)
     install(FILES ${page}.gz DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
     list(APPEND documents ${page}.gz)
   endif()

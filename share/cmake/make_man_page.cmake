@@ -5,6 +5,6 @@ execute_process(COMMAND ${TOOL} --help OUTPUT_VARIABLE help COMMAND_ERROR_IS_FAT
 string(REGEX MATCH "^[^\n]*" summary "${help}")
 string(REGEX REPLACE "\\.$" "" summary "${summary}")
 execute_process(COMMAND ${HELP2MAN} --no-info "--name=${summary}" "--source=lidar_upsampling ${VERSION}"
-    --no-discard-stderr --output=${OUTPUT} ${TOOL}
+    --include=${CMAKE_CURRENT_LIST_DIR}/man_sections.h2m --no-discard-stderr --output=${OUTPUT} ${TOOL}
   COMMAND_ERROR_IS_FATAL ANY)
 execute_process(COMMAND gzip --best --no-name --force ${OUTPUT} COMMAND_ERROR_IS_FATAL ANY)

@@ -145,6 +145,17 @@ TEST(Gnss, a_vehicle_that_never_moves_stays_where_it_is) {
   EXPECT_LT(angle_between(step->T_to_from, Pose::Identity()), 1e-9);
 }
 
+TEST(Gnss, a_fix_of_another_century_costs_no_search_through_the_time_between) {
+  EgoMotion ego;
+  Receiver receiver(0.01, {0, 0, 1});
+  for (double t = 0; t < 2; t += 0.1) receiver.fix(ego, t, Pose::Identity());
+  receiver.fix(ego, 5e9, Pose::Identity());
+  receiver.fix(ego, -5e9, Pose::Identity());
+  const auto step = ego.step(at(0.9), at(1));
+  ASSERT_TRUE(step);
+  EXPECT_LT(step->T_to_from.translation().norm(), 0.2);
+}
+
 TEST(Gnss, extrapolation_is_flagged_and_bounded) {
   const Drive drive{10, 0};
   EgoMotion ego;

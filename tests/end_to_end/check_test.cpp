@@ -41,6 +41,10 @@ TEST(Check, streams_views_and_a_known_time_offset_are_told) {
         "828 x 250 px", "times of points not known", "in view       CAM0 sees"})
     EXPECT_TRUE(contains(result.text, words)) << words << " is not in: " << result.text;
   EXPECT_NEAR(offset_told_ms(result.text), 12, 2.5);
+  EXPECT_TRUE(contains(result.text,
+                       "verdict       not fit: no image falls between two scans, with --set "
+                       "timing.camera_time_offset_ms=1"))
+      << result.text;
   EXPECT_TRUE(std::filesystem::exists(folder / "pictures/overlay_CAM0.png"));
 }
 
@@ -59,6 +63,7 @@ TEST(Check, a_vehicle_at_rest_cannot_tell_the_time_offset) {
   const ToolResult result = run(check_command(folder));
   ASSERT_EQ(result.status, 0) << result.text;
   EXPECT_TRUE(contains(result.text, "cannot be told")) << result.text;
+  EXPECT_TRUE(contains(result.text, "verdict       fit as it is\n")) << result.text;
 }
 
 TEST(Check, a_sweep_with_the_times_of_its_points_is_noticed) {

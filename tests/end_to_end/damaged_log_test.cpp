@@ -30,7 +30,7 @@ class DamagedLog : public ::testing::Test {
 
   // One line on stderr that names byte, last stamp and flag, and nothing new in the folder; with
   // the flag it is a warning.
-  void expect_refused_or_cut_off(const std::string& command) {
+  void expect_refused_or_salvaged(const std::string& command) {
     const std::size_t num_before = num_files(folder_.path());
     const ToolResult refused = run_for_errors(command);
     EXPECT_EQ(refused.status, 1) << command << ": " << refused.text;
@@ -45,6 +45,7 @@ class DamagedLog : public ::testing::Test {
         EXPECT_TRUE(contains(text, word)) << word << " is not in: " << text;
     EXPECT_TRUE(contains(refused.text, "--accept-truncated")) << refused.text;
     EXPECT_FALSE(contains(accepted.text, "--accept-truncated")) << accepted.text;
+    EXPECT_TRUE(contains(accepted.text, "left out: ")) << accepted.text;
   }
 
   [[nodiscard]] std::string in_to(const std::string& tool, const std::string& output) const {
@@ -57,7 +58,7 @@ class DamagedLog : public ::testing::Test {
 
 constexpr std::uint32_t kWild = 0x3fff0000;
 
-TEST_F(DamagedLog, of_whatever_kind_is_densified_up_to_the_damage_if_told_or_refused) {
+TEST_F(DamagedLog, of_whatever_kind_is_refused_or_densified_without_the_damage_if_told) {
   const Bytes picture = range_picture_of(37, 41);
   const std::vector<Bytes> all{range_picture_of(kWild, 1),
                                range_picture_of(1, kWild),
@@ -68,34 +69,34 @@ TEST_F(DamagedLog, of_whatever_kind_is_densified_up_to_the_damage_if_told_or_ref
   for (std::size_t i = 0; i < all.size(); ++i) {
     SCOPED_TRACE(i);
     damage("whole.rawlog", all[i]);
-    expect_refused_or_cut_off(in_to(RAWLOG_DENSIFY, "out.rawlog"));
+    expect_refused_or_salvaged(in_to(RAWLOG_DENSIFY, "out.rawlog"));
     const auto scans = with_label(observations_of(folder_ / "out.rawlog"), "LIDAR_VIRTUAL");
-    EXPECT_EQ(scans.size(), 4U);
+    EXPECT_EQ(scans.size(), 6U);
     fs::remove(folder_ / "out.rawlog");
   }
 }
 
-TEST_F(DamagedLog, in_parts_is_densified_up_to_the_damage_if_told_or_refused) {
+TEST_F(DamagedLog, in_parts_is_refused_or_densified_without_the_damage_if_told) {
   damage("whole.rawlog", range_picture_of(kWild, 1));
-  expect_refused_or_cut_off(in_to(RAWLOG_DENSIFY, "out.rawlog") + "--jobs 2");
+  expect_refused_or_salvaged(in_to(RAWLOG_DENSIFY, "out.rawlog") + "--jobs 2");
 }
 
-TEST_F(DamagedLog, is_refused_by_every_other_tool_too_or_cut_off_if_told) {
+TEST_F(DamagedLog, is_refused_by_every_other_tool_too_or_used_without_the_damage_if_told) {
   damage("whole.rawlog", range_picture_of(kWild, 1));
-  expect_refused_or_cut_off(in_to(RAWLOG_DECIMATE, "out.rawlog") + "--label LIDAR --keep-every 2");
-  EXPECT_EQ(read_log(folder_ / "out.rawlog").size(), num_good_ - 1);
+  expect_refused_or_salvaged(in_to(RAWLOG_DECIMATE, "out.rawlog") + "--label LIDAR --keep-every 2");
+  EXPECT_EQ(read_log(folder_ / "out.rawlog").size(), read_log(folder_ / "whole.rawlog").size() - 2);
   damage("dense.rawlog", broken_jpeg());
-  expect_refused_or_cut_off(in_to(RAWLOG_EXPORT, "clouds"));
-  expect_refused_or_cut_off(std::string(RAWLOG_MAP_COMPARE) + " --reference " +
-                            folder_ / "whole.rawlog" + " --input " + folder_ / "in.rawlog");
+  expect_refused_or_salvaged(in_to(RAWLOG_EXPORT, "clouds"));
+  expect_refused_or_salvaged(std::string(RAWLOG_MAP_COMPARE) + " --reference " +
+                             folder_ / "whole.rawlog" + " --input " + folder_ / "in.rawlog");
 }
 
-TEST_F(DamagedLog, is_not_judged_or_up_to_the_damage_if_told) {
+TEST_F(DamagedLog, is_not_judged_or_without_the_damage_if_told) {
   simulate(folder_);
   expect_done(densify_command(folder_ / "in.rawlog", folder_ / "street.rawlog"));
   damage("street.rawlog", range_picture_of(kWild, 1));
-  expect_refused_or_cut_off(std::string(RAWLOG_EVALUATE) + " --no-paper --reference " +
-                            folder_ / "truth.rawlog" + " --input " + folder_ / "in.rawlog");
+  expect_refused_or_salvaged(std::string(RAWLOG_EVALUATE) + " --no-paper --reference " +
+                             folder_ / "truth.rawlog" + " --input " + folder_ / "in.rawlog");
 }
 
 TEST_F(DamagedLog, is_told_by_a_check) {
@@ -112,7 +113,9 @@ TEST_F(DamagedLog, whose_second_part_has_no_gzip_header_is_not_taken_for_a_whole
   second[0] ^= 1U;
   num_good_ = read_log(folder_ / "whole.rawlog").size();
   write_bytes(folder_ / "in.rawlog", joined({whole, second}));
-  expect_refused_or_cut_off(in_to(RAWLOG_DENSIFY, "out.rawlog"));
+  expect_refused_or_salvaged(in_to(RAWLOG_DENSIFY, "out.rawlog"));
+  EXPECT_EQ(without_label(observations_of(folder_ / "out.rawlog"), "LIDAR_VIRTUAL").size(),
+            2 * num_good_);
 }
 
 TEST_F(DamagedLog, names_that_are_no_utf_8_do_not_end_a_report) {

@@ -155,5 +155,19 @@ TEST(OddInput, a_settings_file_is_refused_with_its_line) {
   expect_refused("\n[kl]\n", "2: [kl]");
 }
 
+TEST(OddInput, an_input_may_stand_by_itself_and_a_misspelt_option_is_answered_with_the_nearest) {
+  const TestFolder folder;
+  write_hand_made(folder / "in.rawlog");
+  expect_done(std::string(RAWLOG_DENSIFY) + " " + folder / "in.rawlog" + " -o " +
+              folder / "out.rawlog");
+  expect_done(std::string(RAWLOG_DECIMATE) + " " + folder / "in.rawlog" + " -o " +
+              folder / "thin.rawlog" + " --label LIDAR --keep-every 2");
+  const ToolResult result = run(std::string(RAWLOG_DENSIFY) + " --inptu " + folder / "in.rawlog" +
+                                " -o " + folder / "other.rawlog");
+  EXPECT_EQ(result.status, 2);
+  EXPECT_TRUE(contains(result.text, "--inptu: there is no such option; did you mean --input?"))
+      << result.text;
+}
+
 }  // namespace
 }  // namespace lidar_upsampling

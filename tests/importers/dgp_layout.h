@@ -26,8 +26,4 @@ struct DgpScene {
 
 [[nodiscard]] Stamp dgp_picture_stamp(int frame);
 
-/// @brief Writes a .npz of one array of rows x, y, z, intensity as numpy.savez does, or packed as
-/// numpy.savez_compressed.
-void write_npz(const std::filesystem::path& file, const LidarScan& scan, bool packed);
-
 }  // namespace lidar_upsampling

@@ -12,6 +12,7 @@
 #include "io/test_folder.h"
 #include "lidar_upsampling/types.h"
 #include "log_checks.h"
+#include "npz_layout.h"
 
 namespace fs = std::filesystem;
 

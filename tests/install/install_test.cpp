@@ -44,7 +44,8 @@ TEST_F(Install, every_tool_has_a_man_page_that_lists_its_options) {
   for (const std::string& tool : tool_names()) {
     const std::string page =
         text_of("man --local-file " + path("share/man/man1/" + tool + ".1.gz"));
-    for (const char* part : {"NAME", "SYNOPSIS", "OPTIONS", "--version"})
+    for (const char* part :
+         {"NAME", "SYNOPSIS", "OPTIONS", "--version", "EXIT STATUS", "FILES", "SEE ALSO"})
       EXPECT_TRUE(contains(page, part)) << tool << " lacks " << part << '\n' << page;
   }
 }

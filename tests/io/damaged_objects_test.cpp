@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the lidar_upsampling authors
 #include <mrpt/core/aligned_allocator.h>
+#include <mrpt/io/lazy_load_path.h>
 #include <mrpt/obs/CObservation3DRangeScan.h>
 
 #include <limits>
@@ -8,6 +9,7 @@
 #include <thread>
 
 #include "damage.h"
+#include "lidar_upsampling/io/carriers.h"
 #include "lidar_upsampling/io/reading_guard.h"
 #include "test_folder.h"
 
@@ -104,6 +106,23 @@ TEST(DamagedObject, a_size_is_believed_where_the_file_has_the_data) {
   const ReadResult result = read_all(folder / "a.rawlog");
   EXPECT_EQ(result.error, "");
   EXPECT_EQ(result.num_good, 2);
+}
+
+TEST(DamagedObject, in_a_file_of_its_own_has_no_more_points_than_that_can_hold) {
+  const TestFolder folder;
+  mrpt::io::setLazyLoadPathBase(folder.path().string());
+  mrpt::obs::CObservation3DRangeScan scan;
+  scan.hasPoints3D = true;
+  scan.resizePoints3DVectors(2);
+  scan.points3D_convertToExternalStorage("points.bin", folder.path().string());
+  write_bytes(folder / "points.bin", {0xff, 0xff, 0xff, 0x3f, 0, 0, 0, 0});
+  try {
+    static_cast<void>(scan_from_observation(scan));
+    FAIL();
+  } catch (const std::runtime_error& error) {
+    EXPECT_NE(std::string(error.what()).find("more than the file can fill"), std::string::npos)
+        << error.what();
+  }
 }
 
 TEST(DamagedObject, a_broken_jpeg_picture_is_told_and_does_not_end_the_process) {

@@ -29,12 +29,12 @@ TEST(ForeignScans, other_observations_are_no_scans) {
 TEST(ForeignScans, invalid_points_of_foreign_scans_are_left_out) {
   CObservation3DRangeScan depth;
   depth.hasPoints3D = true;
-  depth.resizePoints3DVectors(3);
-  depth.points3D_x = {0.F, 1.F, std::numeric_limits<float>::quiet_NaN()};
-  depth.points3D_y = {0.F, 2.F, 0.F};
-  depth.points3D_z = {0.F, 3.F, 0.F};
-  depth.points3D_idxs_x.assign(3, 0);
-  depth.points3D_idxs_y.assign(3, 0);
+  depth.resizePoints3DVectors(4);
+  depth.points3D_x = {0.F, 1.F, std::numeric_limits<float>::quiet_NaN(), 1e30F};
+  depth.points3D_y = {0.F, 2.F, 0.F, 0.F};
+  depth.points3D_z = {0.F, 3.F, 0.F, 0.F};
+  depth.points3D_idxs_x.assign(4, 0);
+  depth.points3D_idxs_y.assign(4, 0);
   const LidarScan scan = scan_from_observation(depth).value();
   ASSERT_EQ(scan.size(), 1U);
   EXPECT_EQ(scan.points[0], Eigen::Vector3f(1, 2, 3));

@@ -6,7 +6,10 @@
 
 #include <filesystem>
 #include <fstream>
+#include <string>
+#include <vector>
 
+#include "lidar_upsampling/nearest_word.h"
 #include "test_folder.h"
 
 namespace lidar_upsampling {
@@ -63,6 +66,18 @@ TEST(IniText, an_error_of_a_key_gets_its_line) {
   EXPECT_EQ(ini.located("[klt] none: no such"), "a.ini:1: [klt] none: no such");
   EXPECT_EQ(ini.located("[other] key: no such"), "[other] key: no such");
   EXPECT_EQ(ini.located("something else"), "something else");
+}
+
+TEST(NearestWord, is_the_one_with_the_fewest_letters_changed) {
+  const std::vector<std::string> known{"--input", "--output", "--overwrite"};
+  EXPECT_EQ(did_you_mean("--inptu", known), "; did you mean --input?");
+  EXPECT_EQ(did_you_mean("--ouput", known), "; did you mean --output?");
+  EXPECT_EQ(did_you_mean("--over-write", known), "; did you mean --overwrite?");
+}
+
+TEST(NearestWord, is_none_where_all_are_far) {
+  EXPECT_EQ(did_you_mean("resample", {"mode", "carrier"}), "");
+  EXPECT_EQ(did_you_mean("mode", {}), "");
 }
 
 }  // namespace

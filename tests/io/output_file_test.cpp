@@ -154,6 +154,26 @@ TEST(CheckFiles, outputs_of_one_place_and_places_that_are_none_are_refused) {
   EXPECT_NO_THROW(check_files({}, {{"--report", "/dev/stdout"}}));
 }
 
+TEST(CheckRoom, a_log_that_takes_more_than_is_free_is_refused_and_others_are_not) {
+  const TestFolder folder;
+  std::ofstream(folder / "plain") << "a log";
+  std::ofstream(folder / "packed") << "\x1f\x8b";
+  for (const char* name : {"plain", "packed"})
+    EXPECT_NO_THROW(check_room({"--output", folder / "out"}, folder / name, true));
+  constexpr std::uintmax_t kTooLarge = 1ULL << 43U;
+  std::error_code too_large_for_the_file_system;
+  for (const char* name : {"plain", "packed"})
+    std::filesystem::resize_file(folder / name, kTooLarge, too_large_for_the_file_system);
+  if (too_large_for_the_file_system || std::filesystem::space(folder.path()).available >= kTooLarge)
+    GTEST_SKIP() << "no file of 8 TB can be made here, or there is room for it";
+  EXPECT_THROW(check_room({"--output", folder / "out"}, folder / "plain", true),
+               std::runtime_error);
+  EXPECT_THROW(check_room({"--output", folder / "out"}, folder / "packed", false),
+               std::runtime_error);
+  EXPECT_NO_THROW(check_room({"--output", folder / "out"}, folder / "plain", false));
+  EXPECT_NO_THROW(check_room({"--output", "/dev/null"}, folder / "plain", true));
+}
+
 TEST(FileNames, labels_with_slashes_become_names_that_are_told_apart) {
   FileNames names;
   EXPECT_EQ(names.of("CAM0"), "CAM0");

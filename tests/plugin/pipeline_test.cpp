@@ -162,8 +162,8 @@ TEST(Pipeline, the_first_reason_to_end_is_told_after_the_last_observation_was_ta
   EXPECT_EQ(live.pipeline->end(), "over");
 }
 
-TEST(Durations, quantiles_are_those_of_the_sorted_durations) {
-  Durations durations;
+TEST(Latencies, quantiles_are_those_of_the_sorted_times) {
+  Latencies durations;
   EXPECT_EQ(durations.quantile_ms(0.5), 0);
   for (int ms = 100; ms >= 0; --ms) durations.add(ms);
   EXPECT_DOUBLE_EQ(durations.quantile_ms(0), 0);

@@ -94,6 +94,13 @@ TEST(Config, an_unknown_key_is_named_with_those_there_are) {
   EXPECT_NE(error.find("window_px"), std::string::npos) << error;
 }
 
+TEST(Config, a_key_that_is_nearly_one_or_one_of_another_section_is_answered_with_that) {
+  const std::string nearly = error_of("[klt]\nwindw_px = 21\n");
+  EXPECT_NE(nearly.find("; did you mean window_px? There are "), std::string::npos) << nearly;
+  const std::string elsewhere = error_of("[lidar_upsampling]\nwindow_px = 21\n");
+  EXPECT_NE(elsewhere.find("; did you mean that of [klt]? "), std::string::npos) << elsewhere;
+}
+
 TEST(Config, a_bad_value_is_named_with_what_is_expected) {
   EXPECT_NE(error_of("[klt]\nwindow_px = big\n").find("[klt] window_px = 'big': a number"),
             std::string::npos);
@@ -114,6 +121,8 @@ TEST(Config, a_misspelt_section_is_named) {
     FAIL() << "no error";
   } catch (const std::invalid_argument& error) {
     EXPECT_NE(std::string(error.what()).find("[ktl]"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("did you mean klt?"), std::string::npos)
+        << error.what();
   }
 }
 

@@ -58,7 +58,9 @@ std::vector<TrackFigures> tracks_of(const Json& rows) {
   return figures;
 }
 
-ReportedObject object_of(const Json& row) {
+}  // namespace
+
+ReportedObject reported_object(const Json& row) {
   ReportedObject object;
   object.stamp = row.at("stamp").get<std::int64_t>();
   object.status = row.at("status").get<std::string>();
@@ -73,14 +75,6 @@ ReportedObject object_of(const Json& row) {
   const auto c = row.at("position_covariance_m2").get<std::array<double, 6>>();
   object.covariance << c[0], c[1], c[2], c[1], c[3], c[4], c[2], c[4], c[5];
   return object;
-}
-
-}  // namespace
-
-std::vector<ReportedObject> reported_objects(const nlohmann::json& report) {
-  std::vector<ReportedObject> objects;
-  for (const Json& row : report.at("objects")) objects.push_back(object_of(row));
-  return objects;
 }
 
 namespace {
@@ -102,7 +96,7 @@ RunReport report_of(const Json& json) {
                              stage.at("median_ms").get<double>(), stage.at("p95_ms").get<double>(),
                              stage.at("total_ms").get<double>()});
   report.tracks = tracks_of(json.at("objects"));
-  report.objects = reported_objects(json);
+  for (const Json& row : json.at("objects")) report.objects.push_back(reported_object(row));
   return report;
 }
 

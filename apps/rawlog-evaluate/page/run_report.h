@@ -60,7 +60,7 @@ struct RunReport {
 /// @throw std::runtime_error the file cannot be read, or is no such report.
 [[nodiscard]] RunReport load_run_report(const std::string& path);
 
-/// The objects of a report that was not written to a file.
-[[nodiscard]] std::vector<ReportedObject> reported_objects(const nlohmann::json& report);
+/// Of a report's row.
+[[nodiscard]] ReportedObject reported_object(const nlohmann::json& row);
 
 }  // namespace lidar_upsampling

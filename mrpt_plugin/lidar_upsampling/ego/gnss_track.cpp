@@ -140,13 +140,18 @@ std::optional<double> GnssTrack::course(Stamp center) const {
 }
 
 double GnssTrack::held_heading(Stamp stamp) const {
-  const double stride = 0.5;
-  const Stamp first = antenna_in_world_.begin()->first, last = antenna_in_world_.rbegin()->first;
-  for (Stamp t = std::min(stamp, last); t >= first; t = shifted(t, -stride))
+  constexpr double kStride_s = 0.5;  // where there are fixes: a wrong one may lie centuries away
+  const auto& fixes = antenna_in_world_;
+  const Stamp first = fixes.begin()->first, last = fixes.rbegin()->first;
+  for (Stamp t = std::min(stamp, last); t >= first;) {
     if (const auto heading = course(t)) return *heading;
+    t = std::min(shifted(t, -kStride_s), std::prev(fixes.upper_bound(t))->first);
+  }
   if (forgotten_heading_) return *forgotten_heading_;
-  for (Stamp t = std::max(stamp, first); t <= last; t = shifted(t, stride))
+  for (Stamp t = std::max(stamp, first); t <= last;) {
     if (const auto heading = course(t)) return *heading;
+    t = std::max(shifted(t, kStride_s), fixes.lower_bound(t)->first);
+  }
   return 0;
 }
 

@@ -6,11 +6,14 @@
 #include <mrpt/system/datetime.h>
 
 #include <filesystem>
+#include <numeric>
 #include <stdexcept>
 
 #include "lidar_upsampling/compat/mrpt.h"
 #include "lidar_upsampling/io/images.h"
+#include "lidar_upsampling/io/reading_guard.h"
 #include "lidar_upsampling/io/scan_classes.h"
+#include "lidar_upsampling/io/unpacker.h"
 #include "lidar_upsampling/text.h"
 
 namespace lidar_upsampling {
@@ -42,13 +45,22 @@ std::vector<std::string> external_files(const mrpt::obs::CObservation& observati
   return files;
 }
 
+std::uint64_t unpacked_size_of_all(const std::vector<std::string>& files) {
+  return std::accumulate(
+      files.begin(), files.end(), std::uint64_t{0},
+      [](std::uint64_t sum, const std::string& file) { return sum + unpacked_size_of(file); });
+}
+
 void read_points(const mrpt::obs::CObservation& observation, LidarScan& scan) {
   // Some classes load nothing from a missing file, without a word.
   const std::vector<std::string> files = external_files(observation);
   for (const std::string& file : files)
     if (!std::filesystem::exists(file)) throw std::runtime_error("there is no file " + file);
   // Not without need: unload() of later MRPTs erases a Velodyne's embedded points.
-  if (!files.empty()) observation.load();
+  if (!files.empty()) {
+    const ReadingGuard guard([&] { return unpacked_size_of_all(files); });
+    observation.load();
+  }
   if (const auto* const cloud = dynamic_cast<const CObservationPointCloud*>(&observation))
     read_point_cloud(*cloud, scan);
   else if (const auto* const depth = dynamic_cast<const CObservation3DRangeScan*>(&observation))

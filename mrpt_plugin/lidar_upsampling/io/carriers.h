@@ -27,7 +27,7 @@ enum class Carrier { automatic, range_scan_3d, point_cloud, velodyne, same };
 
 /// @brief The points of a scan observation, in the lidar frame, with every per-point field it has:
 /// intensity scaled to [0, 1], ring counted from the lowest beam, column, time. Points that are not
-/// finite or lie in the origin (MRPT's "no return") are left out.
+/// finite, lie 1000 km away or in the origin (MRPT's "no return") are left out.
 /// Loads external storage, and unloads it again.
 /// @return none if `is_lidar_scan` is false.
 /// @throw std::runtime_error naming label and stamp: external file missing or broken.

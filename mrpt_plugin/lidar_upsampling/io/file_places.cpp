@@ -2,13 +2,17 @@
 // Copyright (c) 2026, the lidar_upsampling authors
 #include "lidar_upsampling/io/file_places.h"
 
+#include <sys/statvfs.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
+#include <cstdint>
 #include <filesystem>
 #include <stdexcept>
 #include <system_error>
+
+#include "lidar_upsampling/io/unpacker.h"
 
 namespace fs = std::filesystem;
 
@@ -26,6 +30,10 @@ fs::path without_links(fs::path path) {
 bool is_one_file(const std::string& a, const std::string& b) {
   std::error_code error;
   return fs::equivalent(a, b, error) && !error;
+}
+
+std::string megabytes(double bytes) {
+  return std::to_string(static_cast<std::uint64_t>(bytes / 1e6)) + " MB";
 }
 
 }  // namespace
@@ -66,6 +74,24 @@ void check_files(const std::vector<FileUse>& inputs, const std::vector<FileUse>&
       throw std::runtime_error(output.told_by + " " + output.path + ": " + other->second +
                                " goes there, too");
   }
+}
+
+void check_room(const FileUse& output, const std::string& input, bool as_it_is) {
+  constexpr double kPackedAnew = 0.5;  // by another packer: never as little
+  std::error_code error;
+  if (is_device_or_pipe(output.path) || !fs::is_regular_file(input, error)) return;
+  const bool is_packed = Unpacker(input).is_packed();
+  if (!is_packed && !as_it_is) return;  // nobody knows
+  const double least =
+      static_cast<double>(fs::file_size(input)) * (is_packed && !as_it_is ? kPackedAnew : 1);
+  struct statvfs disk {};
+  const std::string folder = fs::path(output_place(output.path, true)).parent_path().string();
+  if (statvfs(folder.c_str(), &disk) != 0 || disk.f_blocks == 0) return;
+  const auto blocks = geteuid() == 0 ? disk.f_bfree : disk.f_bavail;
+  const double free = static_cast<double>(blocks) * static_cast<double>(disk.f_frsize);
+  if (free >= least) return;
+  throw std::runtime_error(output.told_by + " " + output.path + ": " + megabytes(free) +
+                           " are free there, and it takes more than " + megabytes(least));
 }
 
 std::string FileNames::of(const std::string& label) {

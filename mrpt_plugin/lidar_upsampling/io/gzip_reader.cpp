@@ -6,12 +6,12 @@
 #include <condition_variable>
 #include <deque>
 #include <filesystem>
+#include <limits>
 #include <mutex>
 #include <thread>
 #include <utility>
 
 #include "lidar_upsampling/io/reading_guard.h"
-#include "lidar_upsampling/io/unpacker.h"
 
 namespace lidar_upsampling {
 
@@ -41,6 +41,20 @@ class RecordingGzipReader::Ahead {
   }
   /// Why there is no more, once there is none.
   [[nodiscard]] const std::optional<std::string>& defect() const { return current_.defect; }
+
+  // At the end, when the thread has ended.
+  std::optional<std::uint64_t> resume() {
+    if (!at_end() || !current_.defect) return {};
+    thread_.join();
+    const auto left_out = unpacker_.resume();
+    if (left_out) {
+      current_ = {};
+      used_ = 0;
+      is_ended_ = false;
+    }
+    thread_ = left_out ? std::thread([this] { unpack(); }) : std::thread([] {});
+    return left_out;
+  }
 
   std::size_t read(std::uint8_t* out, std::size_t count) {
     if (at_end()) return 0;
@@ -109,7 +123,7 @@ RecordingGzipReader::~RecordingGzipReader() = default;
 
 size_t RecordingGzipReader::Read(void* buffer, size_t count) {
   auto* const out = static_cast<std::uint8_t*>(buffer);
-  std::size_t done = 0;
+  std::size_t done = take_again(out, count);
   while (done < count) {
     const std::size_t got = ahead_->read(out + done, count - done);
     if (got == 0) break;
@@ -121,20 +135,64 @@ size_t RecordingGzipReader::Read(void* buffer, size_t count) {
   return done;
 }
 
-bool RecordingGzipReader::at_end() { return ahead_->at_end(); }
+bool RecordingGzipReader::at_end() { return again_begin_ == again_.size() && ahead_->at_end(); }
 
-std::optional<std::string> RecordingGzipReader::defect() const { return ahead_->defect(); }
+std::optional<std::string> RecordingGzipReader::defect() const {
+  if (again_begin_ < again_.size()) return {};
+  return ahead_->defect();
+}
+
+std::optional<std::uint64_t> RecordingGzipReader::resume() { return ahead_->resume(); }
+
+std::size_t RecordingGzipReader::take_again(std::uint8_t* out, std::size_t count) {
+  const std::size_t step = std::min(count, again_.size() - again_begin_);
+  std::copy_n(again_.data() + again_begin_, step, out);
+  again_begin_ += step;
+  return step;
+}
+
+// @return whether there is more to see.
+bool RecordingGzipReader::look_ahead() {
+  constexpr std::size_t kBlock = 1U << 18U;
+  again_.erase(again_.begin(), again_.begin() + static_cast<std::ptrdiff_t>(again_begin_));
+  again_begin_ = 0;
+  const std::size_t before = again_.size();
+  again_.resize(before + kBlock);
+  again_.resize(before + ahead_->read(again_.data() + before, kBlock));
+  return again_.size() > before;
+}
+
+std::uint64_t RecordingGzipReader::skip_to(
+    const std::function<bool(const std::uint8_t*, std::size_t)>& begins, std::uint64_t least) {
+  position_ -= record_.size();
+  again_.erase(again_.begin(), again_.begin() + static_cast<std::ptrdiff_t>(again_begin_));
+  again_.insert(again_.begin(), record_.begin(), record_.end());
+  again_begin_ = 0;
+  record_.clear();
+  std::uint64_t left_out = 0;
+  for (bool has_more = true;; ++again_begin_, ++left_out) {
+    while (has_more && again_.size() - again_begin_ < kLook) has_more = look_ahead();
+    if (again_begin_ == again_.size()) break;
+    const bool may_begin = left_out >= least;
+    if (may_begin && begins(again_.data() + again_begin_, again_.size() - again_begin_)) break;
+  }
+  position_ += left_out;
+  return left_out;
+}
 
 std::optional<std::uint64_t> RecordingGzipReader::bytes_from_record_on() {
   if (!std::filesystem::is_regular_file(path_)) return {};
-  if (!unpacked_size_) {
-    Unpacker unpacker(path_);
-    std::vector<std::uint8_t> block(1U << 20U);
-    std::uint64_t size = 0;
-    while (const std::size_t step = unpacker.unpack(block)) size += step;
-    unpacked_size_ = size;
-  }
+  if (!unpacked_size_) unpacked_size_ = unpacked_size_of(path_);
   return *unpacked_size_ - (position_ - record_.size());
+}
+
+std::uint64_t RecordingGzipReader::doubtful_from_record_on() {
+  if (!std::filesystem::is_regular_file(path_)) return std::numeric_limits<std::uint64_t>::max();
+  if (!doubtful_) doubtful_ = doubtful_parts_of(path_);
+  const std::uint64_t begin = position_ - record_.size();
+  for (const UnpackedPart& part : *doubtful_)
+    if (part.begin <= begin && begin < part.end) return part.end - begin;
+  return 0;
 }
 
 std::vector<std::uint8_t> RecordingGzipReader::take_record() {

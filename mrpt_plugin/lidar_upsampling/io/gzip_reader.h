@@ -5,11 +5,14 @@
 #include <mrpt/io/CStream.h>
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
+
+#include "lidar_upsampling/io/unpacker.h"
 
 namespace lidar_upsampling {
 
@@ -38,6 +41,19 @@ class RecordingGzipReader : public mrpt::io::CStream {
   [[nodiscard]] bool at_end();
   /// Why no more can be read, where that is not the clean end; none as long as more can be.
   [[nodiscard]] std::optional<std::string> defect() const;
+  /// @brief Behind a defect, goes on with the next gzip member. @return how many bytes of the file
+  /// were not unpacked; none: there is no next one.
+  std::optional<std::uint64_t> resume();
+  /// How many bytes from the record's begin on belong to a gzip member that is damaged, and cannot
+  /// be trusted; unpacks all of the file when first asked.
+  [[nodiscard]] std::uint64_t doubtful_from_record_on();
+  /// @brief Leaves out what was read since the last record was taken, and what follows, up to where
+  /// `begins` tells that something does; at the end, all of it.
+  /// @param begins gets at least `kLook` bytes, but for the end's last ones.
+  /// @param least that are left out. @return how many were.
+  std::uint64_t skip_to(const std::function<bool(const std::uint8_t*, std::size_t)>& begins,
+                        std::uint64_t least);
+  static constexpr std::size_t kLook = 256;
   /// How much unpacked data there is from the record's begin on, up to the end or a defect; unpacks
   /// all of the file when first asked. None: it is no regular file.
   [[nodiscard]] std::optional<std::uint64_t> bytes_from_record_on();
@@ -49,11 +65,17 @@ class RecordingGzipReader : public mrpt::io::CStream {
  private:
   class Ahead;
 
+  std::size_t take_again(std::uint8_t* out, std::size_t count);
+  bool look_ahead();
+
   std::string path_;
   std::uint64_t file_size_ = 0;
   std::uint64_t position_ = 0;  // in the uncompressed data
   std::optional<std::uint64_t> unpacked_size_;
+  std::optional<std::vector<UnpackedPart>> doubtful_;
   std::vector<std::uint8_t> record_;
+  std::vector<std::uint8_t> again_;  // what is to be read once more, from
+  std::size_t again_begin_ = 0;      // here on
   std::unique_ptr<Ahead> ahead_;
 };
 

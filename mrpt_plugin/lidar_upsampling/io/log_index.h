@@ -42,7 +42,7 @@ struct LogIndex {
   std::vector<PoseSample> poses;     ///< CObservationRobotPose
   std::vector<PoseSample> odometry;  ///< CObservationOdometry, or the actions' increments summed up
   std::vector<GnssSample> gnss;      ///< CObservationGPS with a fix
-  std::optional<std::string> corruption;  ///< why the log was not read to its end, if accepted
+  std::optional<std::string> corruption;  ///< what of the log was left out, if that is accepted
 
   /// The stream of this label that holds scans, or images; null if there is none.
   [[nodiscard]] const StreamInfo* find(const std::string& label, StreamKind kind) const;
@@ -72,7 +72,7 @@ class LogIndexer {
 /// @brief Reads a whole log once, loading nothing that is stored externally.
 /// @param progress called now and then with the share read, 0 to 1; may be null.
 /// @throw CorruptRawlog as RawlogReader::next(). @return where damage is accepted, the index of
-/// what comes before, and LogIndex::corruption.
+/// the rest, and LogIndex::corruption.
 [[nodiscard]] LogIndex index_log(const LogFile& log,
                                  const std::function<void(double)>& progress = nullptr);
 

@@ -50,7 +50,7 @@ void read_point_cloud(const mrpt::obs::CObservationPointCloud& observation, Lida
   const compat::PointFields fields = compat::point_fields(map);
   for (std::size_t i = 0; i < x.size(); ++i) {
     const Eigen::Vector3f point(x[i], y[i], z[i]);
-    if (!point.allFinite() || point.isZero(0.F)) continue;
+    if (!is_measured(point)) continue;
     scan.points.push_back(point);
     append(fields.intensity, i, scan.intensity);
     append(fields.ring, i, scan.ring);

@@ -130,7 +130,7 @@ cv::Mat gray_of_cells(const CObservation3DRangeScan& observation, const Cells& c
 
 void append_point(const Eigen::Vector3f& point, const Cells& cells, const cv::Mat& gray,
                   std::size_t index, LidarScan& scan) {
-  if (!point.allFinite() || point.isZero(0.F)) return;
+  if (!is_measured(point)) return;
   scan.points.push_back(point);
   if (cells.rows == 0) return;
   const int row = cells.row[index];

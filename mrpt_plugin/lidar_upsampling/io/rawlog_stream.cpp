@@ -5,16 +5,19 @@
 #include <mrpt/img/CImage.h>
 #include <mrpt/io/lazy_load_path.h>
 #include <mrpt/maps/registerAllClasses.h>
+#include <mrpt/obs/CActionCollection.h>
 #include <mrpt/obs/CObservation.h>
 #include <mrpt/obs/CSensoryFrame.h>
 #include <mrpt/obs/registerAllClasses.h>
 #include <mrpt/system/datetime.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <system_error>
 
 #include "lidar_upsampling/io/gzip_reader.h"
 #include "lidar_upsampling/io/gzip_writer.h"
+#include "lidar_upsampling/io/next_object.h"
 #include "lidar_upsampling/io/output_file.h"
 #include "lidar_upsampling/io/reading_guard.h"
 #include "lidar_upsampling/text.h"
@@ -144,7 +147,7 @@ void RawlogReader::announce_external_storage() const {
   mrpt::io::setLazyLoadPathBase(external_storage_);  // of CImage too, since MRPT 2.3.3
 }
 
-void RawlogReader::end(const std::string& reason) {
+void RawlogReader::meet_damage(const std::string& reason) {
   std::string text = log_.path;
   if (num_good_ == 0)
     text += " is no rawlog that can be read";
@@ -153,10 +156,48 @@ void RawlogReader::end(const std::string& reason) {
   if (last_stamp_) text += ", the last one of " + mrpt::system::dateTimeToString(*last_stamp_);
   text += ", at byte " + std::to_string(stream_->getPosition()) +
           " of the uncompressed data: " + reason;
-  damage_ = text;
-  if (num_good_ > 0 && log_.accepts_damage) return;
-  throw CorruptRawlog(num_good_ == 0 ? text
-                                     : text + "; --accept-truncated takes what comes before");
+  if (num_good_ > 0 && log_.accepts_damage) {
+    left_out_.begin(text);
+    return;
+  }
+  is_over_ = true;
+  throw CorruptRawlog(num_good_ == 0 ? text : text + "; --accept-truncated leaves out the damage");
+}
+
+// Whether there is a next part of the file behind a damaged one.
+bool RawlogReader::goes_on_behind_end() {
+  const auto defect = stream_->defect();
+  if (defect) meet_damage(*defect);
+  if (!defect && num_good_ == 0) meet_damage("it is empty");
+  const auto not_unpacked = defect ? stream_->resume() : std::nullopt;
+  if (!not_unpacked) return false;
+  left_out_.add_packed(*not_unpacked);
+  find_next(0);
+  return true;
+}
+
+void RawlogReader::find_next(std::uint64_t least) {
+  const auto begins = [this](const std::uint8_t* bytes, std::size_t size) {
+    return begins_object(bytes, size, has_frames_);
+  };
+  left_out_.add(stream_->skip_to(begins, least));
+}
+
+void RawlogReader::note_good(const RawlogEntry& entry) {
+  ++num_good_;
+  has_frames_ = has_frames_ ||
+                dynamic_cast<const mrpt::obs::CSensoryFrame*>(entry.object.get()) != nullptr ||
+                dynamic_cast<const mrpt::obs::CActionCollection*>(entry.object.get()) != nullptr;
+  const auto stamp = stamp_of(entry);
+  if (!stamp) return;
+  last_stamp_ = stamp;
+  left_out_.goes_on(*stamp);
+}
+
+std::nullopt_t RawlogReader::end() {
+  is_over_ = true;
+  told_damage_ = left_out_.text();
+  return std::nullopt;
 }
 
 // @return why there is none.
@@ -174,24 +215,23 @@ std::optional<std::string> RawlogReader::read_object(RawlogEntry& entry) {
 }
 
 std::optional<RawlogEntry> RawlogReader::next() {
-  if (damage_) return std::nullopt;
+  if (is_over_) return std::nullopt;
   announce_external_storage();
-  if (stream_->at_end()) {
-    if (const auto defect = stream_->defect())
-      end(*defect);
-    else if (num_good_ == 0)
-      end("it is empty");
-    return std::nullopt;
+  for (;;) {
+    if (stream_->at_end()) {
+      if (!goes_on_behind_end()) return end();
+      continue;
+    }
+    RawlogEntry entry;
+    if (const auto reason = read_object(entry)) {
+      meet_damage(*reason);
+      find_next(std::max<std::uint64_t>(1, stream_->doubtful_from_record_on()));
+      continue;
+    }
+    entry.bytes = stream_->take_record();
+    note_good(entry);
+    return entry;
   }
-  RawlogEntry entry;
-  if (const auto reason = read_object(entry)) {
-    end(*reason);
-    return std::nullopt;
-  }
-  entry.bytes = stream_->take_record();
-  ++num_good_;
-  if (const auto stamp = stamp_of(entry)) last_stamp_ = stamp;
-  return entry;
 }
 
 double RawlogReader::progress() const { return stream_->progress(); }

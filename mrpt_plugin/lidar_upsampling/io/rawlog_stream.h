@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "lidar_upsampling/io/left_out.h"
 #include "lidar_upsampling/types.h"
 
 namespace lidar_upsampling {
@@ -32,8 +33,8 @@ struct RawlogEntry {
 /// An observation's own stamp, or that of a frame's first one; none of what has no valid one.
 [[nodiscard]] std::optional<Stamp> stamp_of(const RawlogEntry& entry);
 
-/// @brief A log to be read, and what becomes of a damaged one: it is refused, or ends where the
-/// damage begins.
+/// @brief A log to be read, and what becomes of a damaged one: it is refused, or what is damaged is
+/// left out.
 struct LogFile {
   // NOLINTNEXTLINE(google-explicit-constructor): a path is one
   LogFile(std::string path_of_log, bool accepts = false)
@@ -72,14 +73,15 @@ class RawlogReader {
   RawlogReader(RawlogReader&&) noexcept;
   RawlogReader& operator=(RawlogReader&&) = delete;
 
-  /// @return the next object, none at the end of the log.
+  /// @return the next object, none at the end of the log. Where damage is accepted, the next one
+  /// that can be found behind it.
   /// @throw CorruptRawlog, unless damage is accepted, with the number of good objects, the last
   /// stamp and the byte offset; always where the first object is unreadable, which means that the
   /// file is no rawlog. From then on there is none.
   [[nodiscard]] std::optional<RawlogEntry> next();
 
-  /// Why the log ended before its clean end, where damage is accepted.
-  [[nodiscard]] const std::optional<std::string>& damage() const { return damage_; }
+  /// What was damaged, and how much was left out, once the log has ended, where that is accepted.
+  [[nodiscard]] const std::optional<std::string>& damage() const { return told_damage_; }
 
   /// Share of the file read so far, 0 to 1.
   [[nodiscard]] double progress() const;
@@ -87,7 +89,11 @@ class RawlogReader {
  private:
   void announce_external_storage() const;
   [[nodiscard]] std::optional<std::string> read_object(RawlogEntry& entry);
-  void end(const std::string& reason);
+  void meet_damage(const std::string& reason);
+  [[nodiscard]] bool goes_on_behind_end();
+  void find_next(std::uint64_t least);
+  void note_good(const RawlogEntry& entry);
+  std::nullopt_t end();
 
   LogFile log_;
   std::string external_storage_;
@@ -95,7 +101,10 @@ class RawlogReader {
   std::unique_ptr<mrpt::serialization::CArchive> archive_;
   std::size_t num_good_ = 0;
   std::optional<Stamp> last_stamp_;
-  std::optional<std::string> damage_;
+  bool has_frames_ = false;
+  LeftOut left_out_;
+  bool is_over_ = false;
+  std::optional<std::string> told_damage_;
 };
 
 /// @brief Writes a rawlog, which appears on `commit()` and never if that does not come, see

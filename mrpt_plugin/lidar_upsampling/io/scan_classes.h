@@ -13,6 +13,13 @@
 /// adds the valid points and what belongs to them to a scan that has none.
 namespace lidar_upsampling {
 
+/// @brief Whether a point was measured: finite, no further away than any LiDAR sees, and not in the
+/// origin, which is MRPT's "no return".
+[[nodiscard]] inline bool is_measured(const Eigen::Vector3f& point) {
+  constexpr float kFarthest = 1e6F;  // m
+  return point.allFinite() && point.cwiseAbs().maxCoeff() < kFarthest && !point.isZero(0.F);
+}
+
 /// @brief Points embedded, with what this MRPT's points maps store of them (compat/point_fields.h):
 /// before 2.11 intensity only, then ring and time, too, from 2.15.4 on all.
 [[nodiscard]] mrpt::obs::CObservationPointCloud::Ptr make_point_cloud(const LidarScan& scan);

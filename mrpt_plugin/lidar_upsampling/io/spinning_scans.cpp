@@ -55,7 +55,7 @@ void read_points(const CObservationVelodyneScan& observation, LidarScan& scan) {
   const std::vector<std::uint16_t> ring = ring_of_laser(observation.calibration);
   for (std::size_t i = 0; i < n; ++i) {
     const Eigen::Vector3f point(cloud.x[i], cloud.y[i], cloud.z[i]);
-    if (!point.allFinite() || point.isZero(0.F)) continue;
+    if (!is_measured(point)) continue;
     scan.points.push_back(point);
     if (cloud.intensity.size() == n) {
       scan.intensity.push_back(static_cast<float>(cloud.intensity[i]) / 255.F);
@@ -147,7 +147,7 @@ void read_rotating_scan(const CObservationRotatingScan& observation, LidarScan& 
           Eigen::Vector3d(level * std::cos(azimuth), level * std::sin(azimuth),
                           range * beam.sinVertCorrection)
               .cast<float>();
-      if (!point.allFinite()) continue;
+      if (!is_measured(point)) continue;
       scan.points.push_back(point);
       scan.ring.push_back(ring[static_cast<std::size_t>(laser)]);
       scan.column.push_back(static_cast<std::uint16_t>(column));

@@ -16,6 +16,8 @@
 #include <system_error>
 #include <utility>
 
+#include "lidar_upsampling/io/gzip_members.h"
+
 namespace lidar_upsampling {
 namespace {
 
@@ -86,15 +88,11 @@ std::uint64_t Unpacker::file_position() const { return num_read_ - size_; }
 
 std::size_t Unpacker::unpack(std::vector<std::uint8_t>& block) {
   if (is_at_end_) return 0;
-  switch (kind_) {
-    case Kind::gzip:
-      return inflate(block);
-    case Kind::zstd:
-      return unpack_zstd(block);
-    case Kind::plain:
-      break;
-  }
-  return copy(block);
+  const std::size_t done = kind_ == Kind::gzip   ? inflate(block)
+                           : kind_ == Kind::zstd ? unpack_zstd(block)
+                                                 : copy(block);
+  unpacked_size_ += done;
+  return done;
 }
 
 // What is left moves to the front, so that a header's first bytes are always seen together.
@@ -155,6 +153,8 @@ std::size_t Unpacker::inflate(std::vector<std::uint8_t>& block) {
       if (!has_input && done == before) return end(done, "the gzip stream is cut off");
       continue;
     }
+    member_begin_ = file_position();
+    sound_size_ = unpacked_size_ + done;
     if (!starts_with(kGzip))
       return size_ == 0 ? end(done, {})
                         : end(done, "the gzip stream is damaged: what follows it is none");
@@ -181,6 +181,44 @@ std::size_t Unpacker::unpack_zstd(std::vector<std::uint8_t>& block) {
       return end(out.pos, "the zstd stream is cut off");
   }
   return out.pos;
+}
+
+std::uint64_t unpacked_size_of(const std::string& path) {
+  Unpacker unpacker(path);
+  std::vector<std::uint8_t> block(1U << 20U);
+  std::uint64_t size = 0;
+  do {
+    while (const std::size_t step = unpacker.unpack(block)) size += step;
+  } while (unpacker.resume());
+  return size;
+}
+
+std::vector<UnpackedPart> doubtful_parts_of(const std::string& path) {
+  Unpacker unpacker(path);
+  std::vector<std::uint8_t> block(1U << 20U);
+  std::vector<UnpackedPart> parts;
+  do {
+    while (unpacker.unpack(block) > 0) continue;
+    if (unpacker.is_packed() && unpacker.defect())
+      parts.push_back({unpacker.sound_size(), unpacker.unpacked_size()});
+  } while (unpacker.resume());
+  return parts;
+}
+
+std::optional<std::uint64_t> Unpacker::resume() {
+  if (kind_ != Kind::gzip || !defect_) return {};
+  const std::uint64_t position = file_position();
+  const bool is_between = position == member_begin_;
+  const auto next = next_gzip_member(file_, member_begin_ + (is_between ? 0 : 1), is_between);
+  if (!next || lseek(file_, static_cast<off_t>(next->from), SEEK_SET) < 0) return {};
+  num_read_ = member_begin_ = next->from;
+  sound_size_ = unpacked_size_;
+  begin_ = size_ = 0;
+  is_at_end_ = false;
+  defect_.reset();
+  isal_inflate_reset(state_.get());
+  state_->crc_flag = next->has_header ? ISAL_GZIP : ISAL_GZIP_NO_HDR_VER;
+  return next->from > position ? next->from - position : 0;
 }
 
 }  // namespace lidar_upsampling

@@ -33,8 +33,18 @@ class Unpacker {
   /// end, clean or not.
   std::size_t unpack(std::vector<std::uint8_t>& block);
 
+  /// @brief Behind a defect, goes on with the next gzip member that can be unpacked.
+  /// @return how many bytes of the file were not; none: there is none, or the file is not to be
+  /// read but once.
+  std::optional<std::uint64_t> resume();
+
+  /// Bytes that have been unpacked, and those of them before the member that has not ended yet.
+  [[nodiscard]] std::uint64_t unpacked_size() const { return unpacked_size_; }
+  [[nodiscard]] std::uint64_t sound_size() const { return sound_size_; }
+
   /// Why the end is no clean one.
   [[nodiscard]] const std::optional<std::string>& defect() const { return defect_; }
+  [[nodiscard]] bool is_packed() const { return kind_ != Kind::plain; }
   [[nodiscard]] std::uint64_t file_size() const { return file_size_; }
   /// Bytes of the file that have been used.
   [[nodiscard]] std::uint64_t file_position() const;
@@ -55,6 +65,8 @@ class Unpacker {
 
   int file_ = -1;
   std::uint64_t file_size_ = 0, num_read_ = 0;
+  std::uint64_t unpacked_size_ = 0, sound_size_ = 0;
+  std::uint64_t member_begin_ = 0;  // of the file, where one begins or is to begin
   Kind kind_ = Kind::plain;
   bool is_at_end_ = false;
   std::vector<std::uint8_t> input_;
@@ -64,5 +76,18 @@ class Unpacker {
   bool in_frame_ = false;
   std::optional<std::string> defect_;
 };
+
+/// @brief How much a file has unpacked, up to a defect, and behind it where that can be.
+/// @throw std::runtime_error as Unpacker
+[[nodiscard]] std::uint64_t unpacked_size_of(const std::string& path);
+
+/// A part of what a file has unpacked.
+struct UnpackedPart {
+  std::uint64_t begin = 0, end = 0;
+};
+
+/// @brief What of a file belongs to damaged gzip members: it may be wrong from somewhere on, as
+/// checksums come at the end. @throw std::runtime_error as Unpacker
+[[nodiscard]] std::vector<UnpackedPart> doubtful_parts_of(const std::string& path);
 
 }  // namespace lidar_upsampling
