@@ -69,6 +69,13 @@ std::vector<std::uint8_t> bytes_of(const mrpt::serialization::CSerializable& obj
   return bytes;
 }
 
+// What MRPT makes of an object of another class.
+bool has_empty_observation(const mrpt::serialization::CSerializable& object) {
+  const auto* const frame = dynamic_cast<const mrpt::obs::CSensoryFrame*>(&object);
+  return frame != nullptr &&
+         std::any_of(frame->begin(), frame->end(), [](const auto& one) { return !one; });
+}
+
 }  // namespace
 
 std::optional<Stamp> stamp_of(const RawlogEntry& entry) {
@@ -180,6 +187,8 @@ std::optional<std::string> RawlogReader::read_object(RawlogEntry& entry) {
     const ReadingGuard guard([this] { return stream_->bytes_from_record_on(); });
     entry.object = archive_->ReadObject();
     if (!entry.object) return "an empty object";
+    if (has_empty_observation(*entry.object))
+      return "a frame holds something else than observations";
     return {};
   } catch (const std::exception& error) {
     if (const auto defect = stream_->defect()) return defect;
