@@ -130,10 +130,8 @@ void RawlogReader::announce_external_storage() const {
 
 void RawlogReader::meet_damage(const std::string& reason) {
   std::string text = log_.path;
-  if (num_good_ == 0)
-    text += " is no rawlog that can be read";
-  else
-    text += ": broken after " + std::to_string(num_good_) + " good objects";
+  text += num_good_ == 0 ? std::string(" is no rawlog that can be read")
+                         : ": broken after " + std::to_string(num_good_) + " good objects";
   if (last_stamp_) text += ", the last one of " + mrpt::system::dateTimeToString(*last_stamp_);
   text += ", at byte " + std::to_string(stream_->getPosition()) +
           " of the uncompressed data: " + reason;
