@@ -24,9 +24,8 @@ const Target& target_named(const std::string& name) {
 }
 
 TEST_P(Fuzzing, damaged_input_is_used_as_far_as_it_is_good_or_refused_in_a_line) {
-  constexpr std::uint64_t kFirst = 1, kCount = 200;
   const Target& target = target_named(GetParam());
-  for (std::uint64_t seed = kFirst; seed < kFirst + kCount; ++seed) {
+  for (std::uint64_t seed = 1; seed <= target.num_in_test; ++seed) {
     const auto failure = failure_of(target, seed);
     EXPECT_FALSE(failure) << "fuzz --target " << target.name << " --seed " << seed
                           << " --count 1: " << *failure;

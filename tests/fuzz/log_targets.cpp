@@ -142,12 +142,13 @@ std::vector<Target> log_targets() {
   std::vector<Target> targets;
   for (const LogSeed& seed : log_seeds())
     targets.push_back({seed.name, [&seed](Random& random) { run_log(seed, random); },
-                       [&seed] { run_whole_log(seed); }});
+                       [&seed] { run_whole_log(seed); }, 12});
   targets.push_back({"live", [](Random& random) { run_live(random, true); },
                      [] {
                        Random random(1);
                        run_live(random, false);
-                     }});
+                     },
+                     50});
   return targets;
 }
 

@@ -25,6 +25,7 @@ struct Target {
   std::function<void(Random&)> run;
   /// The same with one that nothing is wrong with, which throws nothing.
   std::function<void()> run_whole;
+  std::uint64_t num_in_test = 250;  ///< inputs that the test has time for
 };
 
 /// Logs of every carrier, through densification to a log again.

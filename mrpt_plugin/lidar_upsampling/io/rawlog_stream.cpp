@@ -95,6 +95,13 @@ std::vector<std::uint8_t> bytes_of(const mrpt::serialization::CSerializable& obj
   return bytes;
 }
 
+// What MRPT makes of an object of another class.
+bool has_empty_observation(const mrpt::serialization::CSerializable& object) {
+  const auto* const frame = dynamic_cast<const mrpt::obs::CSensoryFrame*>(&object);
+  return frame != nullptr &&
+         std::any_of(frame->begin(), frame->end(), [](const auto& one) { return !one; });
+}
+
 }  // namespace
 
 std::optional<Stamp> stamp_of(const RawlogEntry& entry) {
@@ -149,10 +156,8 @@ void RawlogReader::announce_external_storage() const {
 
 void RawlogReader::meet_damage(const std::string& reason) {
   std::string text = log_.path;
-  if (num_good_ == 0)
-    text += " is no rawlog that can be read";
-  else
-    text += ": broken after " + std::to_string(num_good_) + " good objects";
+  text += num_good_ == 0 ? std::string(" is no rawlog that can be read")
+                         : ": broken after " + std::to_string(num_good_) + " good objects";
   if (last_stamp_) text += ", the last one of " + mrpt::system::dateTimeToString(*last_stamp_);
   text += ", at byte " + std::to_string(stream_->getPosition()) +
           " of the uncompressed data: " + reason;
@@ -206,6 +211,8 @@ std::optional<std::string> RawlogReader::read_object(RawlogEntry& entry) {
     const ReadingGuard guard([this] { return stream_->bytes_from_record_on(); });
     entry.object = archive_->ReadObject();
     if (!entry.object) return "an empty object";
+    if (has_empty_observation(*entry.object))
+      return "a frame holds something else than observations";
     return {};
   } catch (const std::exception& error) {
     if (const auto defect = stream_->defect()) return defect;

@@ -164,6 +164,7 @@ BeamPattern joined(std::vector<Ring> rings, std::size_t num_points) {
 
 std::optional<BeamPattern> find_beam_pattern(const LidarScan& scan) {
   constexpr float kMaxScatter = 1;
+  constexpr float kLeastPitch = kTurn / 65536;  // numbers of columns have 16 bits
   if (scan.ring.size() != scan.size() || scan.size() == 0) return {};
   std::vector<Ring> rings = split_by_ring(scan);
   if (rings.size() < 2 || rings.size() > kMaxRings) return {};
@@ -173,7 +174,7 @@ std::optional<BeamPattern> find_beam_pattern(const LidarScan& scan) {
   });
   if (are_picture_rows(scan, rings)) return {};
   BeamPattern pattern = joined(std::move(rings), scan.size());
-  if (pattern.azimuth_pitch <= 0 || pattern.scatter > kMaxScatter) return {};
+  if (!(pattern.azimuth_pitch >= kLeastPitch) || pattern.scatter > kMaxScatter) return {};
   return pattern;
 }
 
