@@ -64,8 +64,9 @@ inline void write_bytes(const std::string& path, const Bytes& bytes) {
 
 inline Bytes uncompressed(const std::string& path) {
   RecordingGzipReader reader(path);
-  Bytes all(1U << 24U);
-  all.resize(reader.Read(all.data(), all.size()));
+  Bytes all, block(1U << 20U);
+  while (const std::size_t step = reader.Read(block.data(), block.size()))
+    all.insert(all.end(), block.data(), block.data() + step);
   EXPECT_FALSE(reader.defect());
   return all;
 }

@@ -133,7 +133,6 @@ TEST(ClusterExtent, measures_a_turned_box) {
   const ClusterExtent extent = cluster_extent(points, {}, all_of(points));
   EXPECT_NEAR(extent.length, 4, 0.1);
   EXPECT_NEAR(extent.width, 1.8, 0.1);
-  EXPECT_NEAR(extent.yaw, 0.5, 0.03);
   EXPECT_NEAR(extent.height(), 1.2, 0.11);
   EXPECT_NEAR(extent.bottom, 0.3, 1e-5);
 }

@@ -6,8 +6,6 @@
 #include <limits>
 #include <opencv2/imgproc.hpp>
 
-#include "lidar_upsampling/units.h"
-
 namespace lidar_upsampling {
 namespace {
 
@@ -35,13 +33,8 @@ ClusterExtent cluster_extent(const std::vector<Eigen::Vector3f>& points,
   extent.centroid /= static_cast<float>(cluster.size());
 
   const cv::RotatedRect rectangle = cv::minAreaRect(footprint);
-  const bool turned = rectangle.size.height > rectangle.size.width;
   extent.length = std::max(rectangle.size.width, rectangle.size.height);
   extent.width = std::min(rectangle.size.width, rectangle.size.height);
-  double yaw_deg = rectangle.angle + (turned ? 90. : 0.);
-  while (yaw_deg > 90) yaw_deg -= 180;
-  while (yaw_deg <= -90) yaw_deg += 180;
-  extent.yaw = static_cast<float>(yaw_deg * kDegree);
   return extent;
 }
 

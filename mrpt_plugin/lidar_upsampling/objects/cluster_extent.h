@@ -12,8 +12,7 @@ namespace lidar_upsampling {
 struct ClusterExtent {
   Eigen::Vector3f centroid = Eigen::Vector3f::Zero();  ///< mean, lidar frame
   float length = 0, width = 0;                         ///< m, of the footprint, length >= width
-  float yaw = 0;              ///< rad, of the long side from +X, (-pi/2, pi/2]
-  float bottom = 0, top = 0;  ///< m, above the ground
+  float bottom = 0, top = 0;                           ///< m, above the ground
 
   [[nodiscard]] float height() const { return top - bottom; }
 };

@@ -13,11 +13,10 @@
 #include <algorithm>
 #include <cmath>
 #include <iomanip>
-#include <numeric>
 #include <sstream>
 
 #include "lidar_upsampling/io/images.h"
-#include "lidar_upsampling/objects/cluster_extent.h"
+#include "lidar_upsampling/objects/sides.h"
 
 namespace lidar_upsampling {
 namespace {
@@ -42,9 +41,7 @@ std::vector<std::vector<int>> points_by_source(const VirtualScan& scan) {
 double yaw_of(const ObjectBox& box, const Points& points) {
   if (box.moving && box.velocity.head<2>().norm() > kMinSpeed_m_s)
     return std::atan2(box.velocity.y(), box.velocity.x());
-  std::vector<int> all(points.size());
-  std::iota(all.begin(), all.end(), 0);
-  return cluster_extent(points, {}, all).yaw;
+  return yaw_of_sides(points);
 }
 
 void fit(ObjectBox& box, const Points& points) {
