@@ -60,7 +60,7 @@ std::map<std::string, std::string> scenario_files() {
            "[scenario]\nduration_s = 0.4\nseed = 3\n[ego]\ny_m = -5.1\nspeed_mps = 8\n"
            "[lidar]\nrings = 32\ncolumns = 600\n[camera.CAM0]\nwidth = 414\nheight = 125\n"
            "[static]\npedestrians = 0\nbuildings = 1\n[vehicle.lead]\nx_m = 12\ny_m = -5.1\n"
-           "speed_mps = 10\n[pedestrian.one]\nx_m = 9\ny_m = 2\nspeed_mps = 1.4\n"}};
+           "speed_mps = 10\n[vehicle.other]\nx_m = 9\ny_m = 2\nspeed_mps = 1.4\n"}};
 }
 
 const std::string kStamps[] = {"132000000000000000", "132000000000333333", "132000000000666667"};
