@@ -2,9 +2,9 @@
 // Copyright (c) 2026, the lidar_upsampling authors
 #include "lidar_upsampling/objects/sides.h"
 
-#include <algorithm>
 #include <cmath>
 
+#include "lidar_upsampling/registration/surface.h"
 #include "lidar_upsampling/units.h"
 
 namespace lidar_upsampling {
@@ -30,10 +30,10 @@ float extent_of(const Eigen::ArrayXf& places) { return places.maxCoeff() - place
 double yaw_of_sides(const std::vector<Eigen::Vector3f>& points) {
   constexpr std::size_t kMostPoints = 200;  // so many draw two sides to some centimetres
   constexpr int kStep_deg = 2;
-  const std::size_t size = points.size(), count = std::min(size, kMostPoints);
-  Eigen::Matrix2Xf places(2, static_cast<Eigen::Index>(count));
-  for (std::size_t i = 0; i < count; ++i)
-    places.col(static_cast<Eigen::Index>(i)) = points[i * size / count].head<2>();
+  const std::vector<Eigen::Vector3f> some = evenly_thinned(points, kMostPoints);
+  Eigen::Matrix2Xf places(2, static_cast<Eigen::Index>(some.size()));
+  for (std::size_t i = 0; i < some.size(); ++i)
+    places.col(static_cast<Eigen::Index>(i)) = some[i].head<2>();
   double best = 0;
   float closest = 0;
   for (int degrees = 0; degrees < 90; degrees += kStep_deg) {
