@@ -25,8 +25,8 @@
 namespace lidar_upsampling {
 namespace {
 
-bool is_one_frame(const DensifyJob& job) {
-  return job.config.compression.format == Compression::Format::zstd;
+bool is_one_frame(const Compression& compression) {
+  return compression.format == Compression::Format::zstd;
 }
 
 /// The parts' outputs until they are one: gzip files one after the other are a gzip file; for zstd,
@@ -34,20 +34,18 @@ bool is_one_frame(const DensifyJob& job) {
 class PartFiles {
  public:
   PartFiles(const DensifyJob& job, std::size_t count)
-      : output_(job.output, {job.overwrite}),
-        compression_(job.config.compression),
-        is_one_frame_(is_one_frame(job)) {
-    for (std::size_t i = is_one_frame_ ? 0 : 1; i < count; ++i)
+      : output_(job.output, {job.overwrite}), compression_(job.config.compression) {
+    for (std::size_t i = is_one_frame(compression_) ? 0 : 1; i < count; ++i)
       others_.push_back(OutputFile::scratch(job.output));
   }
 
   [[nodiscard]] OutputFile& file(std::size_t part) {
-    if (is_one_frame_) return others_[part];
+    if (is_one_frame(compression_)) return others_[part];
     return part == 0 ? output_ : others_[part - 1];
   }
 
   void join() {
-    if (is_one_frame_) pack();
+    if (is_one_frame(compression_)) pack();
     for (; !others_.empty(); others_.pop_front()) output_.append(others_.front());
     output_.commit();
   }
@@ -68,7 +66,6 @@ class PartFiles {
 
   OutputFile output_;
   Compression compression_;
-  bool is_one_frame_;
   std::deque<OutputFile> others_;
 };
 
@@ -91,7 +88,7 @@ std::vector<LogPart> parts_of(const LogIndex& index, std::vector<Stamp> scans,
 std::vector<PartReport> densify_side_by_side(DensifyJob job, const std::vector<LogPart>& parts,
                                              PartFiles& files,
                                              const std::function<void(double)>& progress) {
-  if (is_one_frame(job)) job.config.compression = Compression::none;
+  if (is_one_frame(job.config.compression)) job.config.compression = Compression::none;
   const int cores = std::max(1, tbb::info::default_concurrency() / static_cast<int>(parts.size()));
   std::vector<PartReport> reports(parts.size());
   std::vector<std::exception_ptr> errors(parts.size());
