@@ -33,20 +33,28 @@ FollowedObject followed_object(const ScanObject& object, const ObjectTrack& trac
 
 // Motions over ground from which an object's points may be found on the next picture: as expected,
 // and parked, the likelier first; one, if both lead to the same pixels.
-std::vector<Twist> motions_to_try(const ObjectTrack& track, const ScanObject& object,
-                                  const Eigen::Matrix3d& R_rest_k, Stamp instant, double focal_px,
-                                  const Config& config) {
+std::vector<Twist> motions_to_try(const ObjectTrack& track, const TrackState& now,
+                                  const ScanObject& object, const Eigen::Matrix3d& R_rest_k,
+                                  double focal_px, const Config& config) {
   constexpr double kSamePatch = 0.3;  // of a patch's side, within which the search ends alike
   const TrackOptions& options = config.object_tracks;
   const double patch_m = config.klt.window_px * std::max(1., object.centroid.norm()) / focal_px;
-  const TrackState now = track.ahead ? track.expected_at(instant, options.noise)
-                                     : predicted(track.latest, instant, options.noise);
   const double log_odds = track.ahead ? track.ahead->log_odds : track.latest_log_odds;
   const Twist expected = expected_motion(now, R_rest_k, 0, options).mean, parked = Twist::Zero();
   if (!config.object_motion.world_tracks) return {expected};
   const bool is_same = expected.tail<3>().norm() < kSamePatch * patch_m;
   if (log_odds > 0) return is_same ? std::vector{expected} : std::vector{expected, parked};
   return is_same ? std::vector{parked} : std::vector{parked, expected};
+}
+
+TrackState expected_on_picture(const ObjectTrack& track, Stamp instant, const MotionNoise& noise) {
+  return track.ahead ? track.expected_at(instant, noise) : predicted(track.latest, instant, noise);
+}
+
+StepExpected in_lidar(const PlanarStep& step, const Eigen::Matrix3d& R_rest_lidar_k) {
+  Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
+  R.topLeftCorner<2, 2>() = level_axes(R_rest_lidar_k).transpose();
+  return {R * step.mean, R * step.covariance * R.transpose()};
 }
 
 // Whether one of the expected motions explains most of the points.
@@ -95,14 +103,17 @@ std::vector<ObjectOnPicture> follow_objects(CameraView& view, const Picture& pic
   const PreparedScan& key = objects.key;
   const std::size_t count = objects.track_of.size();
   std::vector<ObjectOnPicture> sights(count);
-  std::vector<std::vector<Pose>> ways(count);
+  std::vector<Ways> ways(count);
   for (std::size_t i = 0; i < count; ++i) {
     const ScanObject& object = objects.object(i);
-    if (objects.track(i).settled) continue;
-    sights[i].starts = motions_to_try(objects.track(i), object, key.T_rest_lidar.linear(),
-                                      picture.instant, view.camera.model.fx, config);
+    const ObjectTrack& track = objects.track(i);
+    if (track.settled) continue;
+    const Eigen::Matrix3d R_rest_k = key.T_rest_lidar.linear();
+    const TrackState now = expected_on_picture(track, picture.instant, config.object_tracks.noise);
+    sights[i].starts = motions_to_try(track, now, object, R_rest_k, view.camera.model.fx, config);
     for (const Twist& motion : sights[i].starts)
-      ways[i].push_back(motion_pose(motion, object.centroid));
+      ways[i].motions.push_back(motion_pose(motion, object.centroid));
+    if (config.object_motion.world_tracks) ways[i].step = in_lidar(now.step(), R_rest_k);
   }
   follow_ways(view, picture, T_camera_lidar_of(view.camera, key.scan.T_vehicle_lidar) * ego, ways,
               config.klt);

@@ -2,8 +2,12 @@
 // Copyright (c) 2026, the lidar_upsampling authors
 #include "lidar_upsampling/view_ways.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <map>
+#include <optional>
+#include <utility>
 
 #include "lidar_upsampling/vision/projection.h"
 
@@ -28,17 +32,17 @@ struct Start {
 
 /// One per way; of what is settled there is none.
 std::vector<Start> starts_of(const CameraView& view, const Pose& T_camera_t_lidar_k,
-                             const std::vector<std::vector<Pose>>& ways) {
+                             const std::vector<Ways>& ways) {
   const PointTracks& points = view.points;
   std::vector<Start> starts(1);
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const std::size_t count = points.owner[i] < 0 ? 1 : ways[points.owner[i]].size();
+    const std::size_t count = points.owner[i] < 0 ? 1 : ways[points.owner[i]].motions.size();
     if (starts.size() < count) starts.resize(count);
     for (std::size_t way = 0; way < count; ++way) {
       starts[way].which.push_back(i);
       starts[way].guesses.push_back(
           pixel_of(view, i, T_camera_t_lidar_k,
-                   points.owner[i] < 0 ? Pose::Identity() : ways[points.owner[i]][way]));
+                   points.owner[i] < 0 ? Pose::Identity() : ways[points.owner[i]].motions[way]));
     }
   }
   return starts;
@@ -92,10 +96,41 @@ Start part_of(const Start& start, const std::vector<std::size_t>& asked) {
   return part;
 }
 
+/// Lost objects, where as a whole they are found.
+Start searched(const CameraView& view, const Picture& picture, const Pose& T_camera_t_lidar_k,
+               const std::vector<Ways>& ways, const std::vector<std::size_t>& lost,
+               const KltOptions& options) {
+  std::map<int, std::vector<std::size_t>> objects;
+  for (const std::size_t i : lost)
+    if (view.points.owner[i] >= 0) objects[view.points.owner[i]].push_back(i);
+  const std::vector<std::pair<int, std::vector<std::size_t>>> list(objects.begin(), objects.end());
+  std::vector<std::optional<Pose>> motions(list.size());
+  tbb::parallel_for(std::size_t{0}, list.size(), [&](std::size_t k) {
+    LostSurface surface{
+        view.anchor->pyramid, picture.pyramid, view.camera.model, T_camera_t_lidar_k, {}, {}};
+    for (const std::size_t i : list[k].second) {
+      surface.points.push_back(view.points.point[i]);
+      surface.from_px.push_back(view.points.anchor_px[i]);
+    }
+    motions[k] = search_surface(surface, ways[list[k].first].step, options);
+  });
+  std::map<int, Pose> found;
+  for (std::size_t k = 0; k < list.size(); ++k)
+    if (motions[k]) found[list[k].first] = *motions[k];
+  Start start;
+  for (const std::size_t i : lost) {
+    const auto T_mov = found.find(view.points.owner[i]);
+    if (T_mov == found.end()) continue;
+    start.which.push_back(i);
+    start.guesses.push_back(pixel_of(view, i, T_camera_t_lidar_k, T_mov->second));
+  }
+  return start;
+}
+
 }  // namespace
 
 void follow_ways(CameraView& view, const Picture& picture, const Pose& T_camera_t_lidar_k,
-                 const std::vector<std::vector<Pose>>& ways, const KltOptions& options) {
+                 const std::vector<Ways>& ways, const KltOptions& options) {
   PointTracks& points = view.points;
   std::vector<Start> starts = starts_of(view, T_camera_t_lidar_k, ways);
   start_where_last_found(starts.front(), points);
@@ -109,7 +144,9 @@ void follow_ways(CameraView& view, const Picture& picture, const Pose& T_camera_
   };
   forget(points, starts.front().which);
   for (const Start& start : starts) follow(start, align_points);
-  const std::vector<std::size_t> lost = points_elsewhere(points.owner, points.found);
+  std::vector<std::size_t> lost = points_elsewhere(points.owner, points.found);
+  follow(searched(view, picture, T_camera_t_lidar_k, ways, lost, options), align_points);
+  lost = points_elsewhere(points.owner, points.found);
   forget(points, lost);
   for (const Start& start : starts) follow(part_of(start, lost), search_points);
 }

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the lidar_upsampling authors
+#pragma once
+
+#include <Eigen/Core>
+#include <opencv2/core/types.hpp>
+#include <optional>
+#include <vector>
+
+#include "lidar_upsampling/types.h"
+#include "lidar_upsampling/vision/klt.h"
+
+namespace lidar_upsampling {
+
+/// A rigid surface on one picture, of which it is not known where it is on another.
+struct LostSurface {
+  const ImagePyramid &from, &to;
+  const CameraModel& camera;
+  Pose T_camera_source;                 ///< of the second picture; source: the points' frame
+  std::vector<Eigen::Vector3d> points;  ///< m, source frame, where they were on the first picture
+  std::vector<cv::Point2f> from_px;     ///< of each, on the first picture
+};
+
+/// How it may have gone in the plane of the source frame's x and y: a step (m), and a turn about
+/// its middle (rad).
+struct StepExpected {
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+};
+
+/// @brief The motion by which all points together look most like the first picture: tried on a grid
+/// over what is expected, on small pictures first. A single point's neighbourhood looks alike at
+/// many places, a whole surface hardly.
+/// @return T_mov, source frame; none where what is expected is narrower than the patches that are
+/// searched for one by one.
+[[nodiscard]] std::optional<Pose> search_surface(const LostSurface& lost,
+                                                 const StepExpected& expected,
+                                                 const KltOptions& options);
+
+}  // namespace lidar_upsampling
