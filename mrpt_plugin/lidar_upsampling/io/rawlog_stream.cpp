@@ -15,10 +15,10 @@
 #include <filesystem>
 #include <system_error>
 
-#include "lidar_upsampling/io/gzip_reader.h"
-#include "lidar_upsampling/io/gzip_writer.h"
 #include "lidar_upsampling/io/next_object.h"
 #include "lidar_upsampling/io/output_file.h"
+#include "lidar_upsampling/io/packed_reader.h"
+#include "lidar_upsampling/io/packed_writer.h"
 #include "lidar_upsampling/io/reading_guard.h"
 #include "lidar_upsampling/text.h"
 
@@ -140,7 +140,7 @@ bool share_external_storage(const std::string& source_rawlog, const std::string&
 RawlogReader::RawlogReader(const LogFile& log)
     : log_(log),
       external_storage_(external_storage_of(log.path)),
-      stream_(std::make_unique<RecordingGzipReader>(log.path)),
+      stream_(std::make_unique<PackedReader>(log.path)),
       archive_(mrpt::serialization::archiveUniquePtrFrom<mrpt::io::CStream>(*stream_)) {
   register_stock_classes();
   announce_external_storage();
@@ -249,10 +249,10 @@ RawlogEntry entry_of(const mrpt::serialization::CSerializable::Ptr& object) {
 
 RawlogWriter::RawlogWriter(const std::string& path, bool overwrite, Compression compression)
     : own_(std::make_unique<OutputFile>(path, OutputOptions{overwrite})),
-      packed_(std::make_unique<GzipWriter>(*own_, compression)) {}
+      packed_(std::make_unique<PackedWriter>(*own_, compression)) {}
 
 RawlogWriter::RawlogWriter(OutputFile& file, Compression compression)
-    : packed_(std::make_unique<GzipWriter>(file, compression)) {}
+    : packed_(std::make_unique<PackedWriter>(file, compression)) {}
 
 RawlogWriter::~RawlogWriter() = default;
 
