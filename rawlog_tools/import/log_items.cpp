@@ -5,9 +5,11 @@
 #include <mrpt/obs/CObservationRobotPose.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <stdexcept>
+#include <system_error>
 
 #include "lidar_upsampling/io/images.h"
 
@@ -21,6 +23,17 @@ cv::Mat load_picture(const std::string& path) {
 }
 
 }  // namespace
+
+void check_room(const FileUse& output, const std::vector<LogItem>& items) {
+  constexpr double kLeastShare = 0.2;  // of text; pictures take more than in their files
+  double total = 0;
+  for (const LogItem& item : items) {
+    std::error_code not_there;
+    const auto size = item.file.empty() ? 0 : std::filesystem::file_size(item.file, not_there);
+    if (!not_there) total += static_cast<double>(size);
+  }
+  check_room(output, kLeastShare * total);
+}
 
 void write_items(RawlogWriter& writer, std::vector<LogItem> items,
                  const std::function<void(double)>& progress) {
