@@ -5,21 +5,46 @@
 #include <mrpt/obs/CObservationRobotPose.h>
 
 #include <algorithm>
+#include <exception>
 #include <filesystem>
+#include <iostream>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <stdexcept>
 #include <system_error>
 
 #include "lidar_upsampling/io/images.h"
+#include "lidar_upsampling/io/reading_guard.h"
 
 namespace lidar_upsampling::importing {
 namespace {
 
+// OpenCV tells of broken pictures by itself.
+class SilentErrors {
+ public:
+  SilentErrors() = default;
+  ~SilentErrors() {
+    std::cerr.rdbuf(before_);
+    std::cerr.clear();
+  }
+  SilentErrors(const SilentErrors&) = delete;
+  SilentErrors& operator=(const SilentErrors&) = delete;
+
+ private:
+  std::streambuf* before_ = std::cerr.rdbuf(nullptr);
+};
+
 cv::Mat load_picture(const std::string& path) {
-  cv::Mat pixels = cv::imread(path, cv::IMREAD_ANYCOLOR);
-  if (pixels.empty()) throw std::runtime_error(path + " holds no picture");
-  return pixels;
+  std::error_code not_there;
+  const auto size = std::filesystem::file_size(path, not_there);
+  const ReadingGuard guard([&] { return not_there ? 0 : size; });
+  try {
+    const SilentErrors silence;
+    cv::Mat pixels = cv::imread(path, cv::IMREAD_ANYCOLOR);
+    if (!pixels.empty()) return pixels;
+  } catch (const std::exception&) {  // says no more
+  }
+  throw std::runtime_error(path + " holds no picture, or a broken one");
 }
 
 }  // namespace

@@ -95,6 +95,21 @@ jpeg_error_mgr* throwing_jpeg_error(jpeg_error_mgr* manager) {
   return manager;
 }
 
+// Of libpng, whose header not every system has that has OpenCV.
+using PngMessage = void(void* png, const char* text);
+using MakePng = void*(const char* version, void* told, PngMessage* error, PngMessage* warning);
+MakePng* system_make_png = nullptr;
+void (*png_longjmp)(void* png, int value) = nullptr;
+
+void leave_png(void* png, const char*) { png_longjmp(png, 1); }
+
+void hear_png_warning(void*, const char*) {}
+
+void* make_quiet_png(const char* version, void* told, PngMessage* error, PngMessage* warning) {
+  return system_make_png(version, told, error != nullptr ? error : leave_png,
+                         warning != nullptr ? warning : hear_png_warning);
+}
+
 std::shared_ptr<mrpt::rtti::CObject> create_object(const mrpt::rtti::TRuntimeClassId* of_class) {
   if (of_class->ptrCreateObject) return of_class->ptrCreateObject();
   throw std::runtime_error(std::string("there are no objects of class ") + of_class->className);
@@ -136,6 +151,8 @@ void rebind_all() {
       "_ZN4mrpt13serialization8CArchive10ReadObjectINS_5poses8CPosePDFEEENT_3PtrEv");
   rebind_to("_Znwm", checked_new, system_new);
   rebind_to("jpeg_std_error", throwing_jpeg_error, system_jpeg_error);
+  png_longjmp = reinterpret_cast<decltype(png_longjmp)>(function_named("png_longjmp"));
+  if (png_longjmp != nullptr) rebind_to("png_create_read_struct", make_quiet_png, system_make_png);
   rebind("_ZN4mrpt14aligned_mallocEmm", reinterpret_cast<void*>(aligned_malloc));
   rebind("_ZNK4mrpt4rtti15TRuntimeClassId12createObjectEv", reinterpret_cast<void*>(create_object));
 }

@@ -17,9 +17,9 @@ inline constexpr const char* kBrokenJpeg = "a JPEG picture is broken: ";
 ///
 /// With the first one, this holds for the whole process and all threads: where memory is short,
 /// MRPT's aligned vectors throw std::bad_alloc (MRPT 2.5.8 uses the null pointer); a broken JPEG
-/// picture is a std::runtime_error (libjpeg ends the process), and neither it nor a class that
-/// cannot be made prints a line of its own; an action or its motion that is none is an exception
-/// (MRPT uses the null pointer).
+/// picture is a std::runtime_error (libjpeg ends the process), and neither it, nor a broken PNG
+/// picture, nor a class that cannot be made prints a line of its own; an action or its motion that
+/// is none is an exception (MRPT uses the null pointer).
 class ReadingGuard {
  public:
   /// What the object and the rest of the file hold, unpacked; none: not known.
