@@ -6,6 +6,7 @@
 #include <mrpt/obs/CActionCollection.h>
 #include <mrpt/obs/CActionRobotMovement2D.h>
 #include <mrpt/obs/CObservation3DRangeScan.h>
+#include <mrpt/poses/CPosePDFGaussian.h>
 #include <mrpt/serialization/CArchive.h>
 
 #include <algorithm>
@@ -160,7 +161,8 @@ Bytes with_other(const Bytes& all, const Bytes& object, const Bytes& other) {
 
 TEST(DamagedObject, that_holds_none_or_another_than_it_may_is_told) {
   mrpt::obs::CActionRobotMovement2D action;
-  action.computeFromOdometry({}, {});
+  action.estimationMethod = mrpt::obs::CActionRobotMovement2D::emScan2DMatching;
+  action.poseChange = mrpt::poses::CPosePDFGaussian::Create();
   const Bytes motion = bytes_of(&*action.poseChange), whole = bytes_of(&action);
   const Bytes actions = bytes_of(std::make_unique<mrpt::obs::CActionCollection>(action).get());
   for (const Bytes& other : {bytes_of(nullptr), entry_of(odometry(0)).bytes}) {
