@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <exception>
 #include <filesystem>
-#include <iostream>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <stdexcept>
@@ -19,27 +18,11 @@
 namespace lidar_upsampling::importing {
 namespace {
 
-// OpenCV tells of broken pictures by itself.
-class SilentErrors {
- public:
-  SilentErrors() = default;
-  ~SilentErrors() {
-    std::cerr.rdbuf(before_);
-    std::cerr.clear();
-  }
-  SilentErrors(const SilentErrors&) = delete;
-  SilentErrors& operator=(const SilentErrors&) = delete;
-
- private:
-  std::streambuf* before_ = std::cerr.rdbuf(nullptr);
-};
-
 cv::Mat load_picture(const std::string& path) {
   std::error_code not_there;
   const auto size = std::filesystem::file_size(path, not_there);
   const ReadingGuard guard([&] { return not_there ? 0 : size; });
   try {
-    const SilentErrors silence;
     cv::Mat pixels = cv::imread(path, cv::IMREAD_ANYCOLOR);
     if (!pixels.empty()) return pixels;
   } catch (const std::exception&) {  // says no more

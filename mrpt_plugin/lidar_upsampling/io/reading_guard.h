@@ -6,6 +6,8 @@
 #include <functional>
 #include <optional>
 
+#include "lidar_upsampling/io/silence.h"
+
 namespace lidar_upsampling {
 
 /// How the exception of a broken JPEG picture begins.
@@ -48,6 +50,7 @@ class ReadingGuard {
   void check(std::uint64_t size, std::uint64_t per_byte);
 
  private:
+  Silence silence_;
   BytesLeft bytes_left_;
   std::optional<std::uint64_t> left_;  // once asked for
   ReadingGuard* outer_;
