@@ -54,13 +54,11 @@ inline std::vector<BadObservation> bad_observations() {
     o.setSensorPose(pose);
   };
   const auto no_stamp = [](CObservation& o) { o.timestamp = INVALID_TIMESTAMP; };
-  const auto far_stamp = [](CObservation& o) { o.timestamp = Stamp(Stamp::duration::max()); };
   return {
       {"LIDAR", "pose on the vehicle", no_pose, {}},
       {"CAM", "pose on the vehicle", no_pose, {}},
       {"LIDAR", "no time stamp", no_stamp, {}},
       {"CAM", "no time stamp", no_stamp, {}},
-      {"CAM", "no time stamp that can be", far_stamp, {}},
       {"CAM", "calibration", [=](CObservation& o) { image(o).cameraParams.fx(kNoNumber); }, {}},
       {"CAM", "calibration", [=](CObservation& o) { image(o).cameraParams.fx(0); }, {}},
       {"CAM",
