@@ -16,8 +16,8 @@
 
 #include "lidar_upsampling/front_end/pose_input.h"
 #include "lidar_upsampling/io/file_places.h"
-#include "lidar_upsampling/io/gzip_writer.h"
 #include "lidar_upsampling/io/output_file.h"
+#include "lidar_upsampling/io/packed_writer.h"
 #include "mrpt_needs.h"
 #include "odd_inputs.h"
 #include "streams.h"
@@ -52,7 +52,7 @@ class PartFiles {
 
  private:
   void pack() {
-    GzipWriter writer(output_, compression_);
+    PackedWriter writer(output_, compression_);
     for (; !others_.empty(); others_.pop_front())
       for (std::uint64_t done = 0; done < others_.front().size();) {
         std::vector<std::uint8_t> block(1U << 20U);

@@ -40,7 +40,7 @@ void LogPlayer::play() {
         return;
       }
     }
-    pipeline_.finish(reader_.damage().value_or(path_ + ": played to its end"));
+    pipeline_.finish(reader_.damage().value_or(path_ + kPlayedToItsEnd));
   } catch (const std::exception& error) {
     pipeline_.finish(one_line(error));
   }

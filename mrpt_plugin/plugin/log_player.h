@@ -16,6 +16,9 @@
 
 namespace lidar_upsampling {
 
+/// How the reason of an end ends that is none but the log's own.
+inline constexpr const char* kPlayedToItsEnd = ": played to its end";
+
 /// @brief Plays a log's observations; those inside sensory frames one by one, the first of a frame
 /// with the pose that the actions lead to. Actions are passed over if the frames hold odometry too.
 /// At the log's end, or where it is broken, it finishes the pipeline.

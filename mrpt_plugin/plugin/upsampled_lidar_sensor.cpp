@@ -2,6 +2,7 @@
 // Copyright (c) 2026, the lidar_upsampling authors
 #include "plugin/upsampled_lidar_sensor.h"
 
+#include <mrpt/io/lazy_load_path.h>
 #include <mrpt/obs/CObservationComment.h>
 
 #include <algorithm>
@@ -11,6 +12,7 @@
 #include "lidar_upsampling/front_end/pose_input.h"
 #include "lidar_upsampling/io/rawlog_stream.h"
 #include "lidar_upsampling/text.h"
+#include "plugin/grabber_end.h"
 #include "plugin/live_upsampling.h"
 #include "plugin/log_player.h"
 
@@ -36,6 +38,7 @@ void UpsampledLidarSensor::loadConfig_sensorSpecific(const mrpt::config::CConfig
     settings_ = load_sensor_settings(source, section);
     drivers_ = make_drivers(source, settings_.sources);
   } catch (const std::exception& error) {
+    remove_empty_recording_at_exit(mrpt::io::getLazyLoadPathBase());
     // On its way through MRPT's loadConfig() a message is cut up at the bracket of a section.
     std::string message = one_line(error);
     std::replace(message.begin(), message.end(), '[', '(');
@@ -51,6 +54,16 @@ void UpsampledLidarSensor::setPathForExternalImages(const std::string& directory
 
 void UpsampledLidarSensor::initialize() {
   m_state = ssInitializing;
+  try {
+    start();
+  } catch (const std::exception&) {
+    remove_empty_recording_at_exit(external_images_);
+    throw;
+  }
+  m_state = ssWorking;
+}
+
+void UpsampledLidarSensor::start() {
   streams_.emplace(settings_.config, settings_.rig);
   QueueOptions queue;
   queue.max_waiting = static_cast<std::size_t>(settings_.max_queue);
@@ -66,7 +79,6 @@ void UpsampledLidarSensor::initialize() {
     share_external_images();
     source_ = std::make_unique<LogPlayer>(settings_.rawlog, settings_.speed, *pipeline_);
   }
-  m_state = ssWorking;
 }
 
 // Only a log has stamps that a file can have poses of.
@@ -109,11 +121,25 @@ void UpsampledLidarSensor::end(const std::string& reason) {
   const bool all_is_used = handed_out_.empty();
   const bool is_over = std::chrono::duration<double>(now - *end_time_).count() > settings_.linger_s;
   if (!all_is_used && !is_over) return;
-  m_state = ssError;
-  if (!all_is_used)
+  if (!all_is_used && !key_time_)
     MRPT_LOG_WARN_STREAM("after linger_s = " << settings_.linger_s << " s, " << handed_out_.size()
                                              << " observations are still in use");
+  if (ends_quietly(reason)) return;
+  m_state = ssError;
+  remove_empty_recording_at_exit(external_images_);
   throw std::runtime_error(reason);
+}
+
+// A driver that fails is an error, and so is a log of which nothing could be played.
+bool UpsampledLidarSensor::ends_quietly(const std::string& reason) {
+  constexpr std::chrono::seconds kUntilSeen(10);
+  const auto now = std::chrono::steady_clock::now();
+  if (key_time_) return now < *key_time_ + kUntilSeen;
+  if (settings_.rawlog.empty() || last_stamp_ == Stamp() || !press_key_in_grabber()) return false;
+  const bool is_whole = reason.find(kPlayedToItsEnd) != std::string::npos;
+  logStr(is_whole ? mrpt::system::LVL_INFO : mrpt::system::LVL_WARN, reason);
+  key_time_ = now;
+  return true;
 }
 
 // rawlog-grabber writes the earlier half of what is pending, again and again: a single observation
@@ -132,10 +158,8 @@ void UpsampledLidarSensor::append_fillers() {
 
 // The recording finds the played log's external files through a link beside it.
 void UpsampledLidarSensor::share_external_images() {
-  const std::string ending = "_Images";
-  const std::size_t size = external_images_.size();
-  if (size <= ending.size() || external_images_.substr(size - ending.size()) != ending) return;
-  const std::string recording = external_images_.substr(0, size - ending.size()) + ".rawlog";
+  const std::string recording = recording_of(external_images_);
+  if (recording.empty()) return;
   if (!share_external_storage(settings_.rawlog, recording))
     messages_.add(external_images_ + ": this name is taken, external images will not be found");
 }

@@ -31,7 +31,7 @@ namespace lidar_upsampling {
 ///
 /// After a log's end, or a driver's failure, doProcess() goes on until the user of the observations
 /// has let go of all of them, and then throws: rawlog-grabber stops at an exception, and would
-/// leave unwritten what it has not yet come to.
+/// leave unwritten what it has not yet come to. At a log's end it is told to stop without one.
 class UpsampledLidarSensor : public mrpt::hwdrivers::CGenericSensor,
                              public mrpt::system::COutputLogger {
   DEFINE_GENERIC_SENSOR(UpsampledLidarSensor)
@@ -55,7 +55,9 @@ class UpsampledLidarSensor : public mrpt::hwdrivers::CGenericSensor,
                                  const std::string& section) override;
   [[nodiscard]] std::vector<PoseSample> given_poses() const;
   void hand_out();
+  void start();
   void end(const std::string& reason);
+  [[nodiscard]] bool ends_quietly(const std::string& reason);
   void append_fillers();
   void share_external_images();
   void report() const;
@@ -70,6 +72,7 @@ class UpsampledLidarSensor : public mrpt::hwdrivers::CGenericSensor,
   std::deque<std::weak_ptr<mrpt::obs::CObservation>> handed_out_;
   Stamp last_stamp_{};
   std::optional<SteadyTime> end_time_;
+  std::optional<SteadyTime> key_time_;
 };
 
 }  // namespace lidar_upsampling

@@ -122,17 +122,21 @@ std::vector<importing::LogItem> items_of(const TrackingLog& log) {
         {sample.stamp, [&sample] { return importing::pose_observation(sample, "POSES"); }});
   }
   for (const StampedFile& file : log.sweeps) {
-    items.push_back({file.stamp, [&file, &calibration = log.calibration] {
+    items.push_back({file.stamp,
+                     [&file, &calibration = log.calibration] {
                        return observation_from_scan(read_sweep(file.path, file.stamp, calibration),
                                                     Carrier::automatic);
-                     }});
+                     },
+                     file.path});
   }
   for (const CameraFiles& files : log.cameras) {
     for (const StampedFile& file : files.pictures) {
-      items.push_back({file.stamp, [&file, &camera = files.camera] {
+      items.push_back({file.stamp,
+                       [&file, &camera = files.camera] {
                          return observation_from_image(
                              importing::read_picture(file.path, file.stamp, camera));
-                       }});
+                       },
+                       file.path});
     }
   }
   return items;

@@ -5,6 +5,8 @@
 // POSES; and its annotations into boxes and truth.
 #include <iostream>
 #include <optional>
+#include <utility>
+#include <vector>
 
 #include "argoverse2rawlog/argoverse_log.h"
 #include "common/tool_main.h"
@@ -23,6 +25,8 @@ struct Options {
 void convert(const Options& options) {
   RawlogWriter writer(options.output, options.overwrite);
   TrackingLog log = open_log(options.log, options.cameras);
+  std::vector<importing::LogItem> items = items_of(log);
+  importing::check_room({"--output", options.output}, items);
   std::optional<importing::LabelFiles> labels;
   if (options.labels.any()) {
     labels.emplace(options.labels);
@@ -39,7 +43,7 @@ void convert(const Options& options) {
   std::cout << "poses: " << log.poses.size() << "\n";
   {
     Progress progress("converting");
-    importing::write_items(writer, items_of(log), std::ref(progress));
+    importing::write_items(writer, std::move(items), std::ref(progress));
   }
   if (labels) labels->commit();
   writer.commit();

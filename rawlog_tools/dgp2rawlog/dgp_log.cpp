@@ -59,15 +59,18 @@ std::vector<importing::LogItem> items_of(const Scene& scene, Carrier carrier) {
         {sample.stamp, [sample] { return importing::pose_observation(sample, "POSE"); }});
   }
   for (const Sweep& sweep : scene.sweeps) {
-    items.push_back({sweep.file.stamp, [&sweep, carrier] {
-                       return observation_from_scan(read_sweep(sweep), carrier);
-                     }});
+    items.push_back(
+        {sweep.file.stamp,
+         [&sweep, carrier] { return observation_from_scan(read_sweep(sweep), carrier); },
+         sweep.file.path});
   }
   for (const Picture& picture : scene.pictures) {
-    items.push_back({picture.file.stamp, [&picture] {
+    items.push_back({picture.file.stamp,
+                     [&picture] {
                        return observation_from_image(importing::read_picture(
                            picture.file.path, picture.file.stamp, picture.camera));
-                     }});
+                     },
+                     picture.file.path});
   }
   return items;
 }

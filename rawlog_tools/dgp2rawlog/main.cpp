@@ -6,6 +6,8 @@
 #include <iostream>
 #include <map>
 #include <optional>
+#include <utility>
+#include <vector>
 
 #include "common/tool_main.h"
 #include "dgp2rawlog/dgp_labels.h"
@@ -39,6 +41,8 @@ void convert(const Options& options) {
   RawlogWriter writer(options.output, options.overwrite);
   const Scene scene = open_scene(options.scene, options.cameras);
   report(scene);
+  std::vector<importing::LogItem> items = items_of(scene);
+  importing::check_room({"--output", options.output}, items);
   std::optional<importing::LabelFiles> labels;
   if (options.labels.any()) {
     labels.emplace(options.labels);
@@ -49,7 +53,7 @@ void convert(const Options& options) {
   }
   {
     Progress progress("converting");
-    importing::write_items(writer, items_of(scene), std::ref(progress));
+    importing::write_items(writer, std::move(items), std::ref(progress));
   }
   if (labels) labels->commit();
   writer.commit();

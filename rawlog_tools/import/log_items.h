@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "lidar_upsampling/ego/trajectory.h"
+#include "lidar_upsampling/io/file_places.h"
 #include "lidar_upsampling/io/rawlog_stream.h"
 #include "lidar_upsampling/types.h"
 
@@ -19,7 +20,12 @@ namespace lidar_upsampling::importing {
 struct LogItem {
   Stamp stamp;
   std::function<mrpt::obs::CObservation::Ptr()> make;
+  std::string file = {};  ///< that it is made of; empty: of less than that
 };
+
+/// @brief Looks whether a log of these has room, before the work.
+/// @throw std::runtime_error how much is free, and how much it takes at least
+void check_room(const FileUse& output, const std::vector<LogItem>& items);
 
 /// @brief Writes in the order of the stamps; at equal ones, in the order given.
 /// @param progress called with the share that is done, 0 to 1.

@@ -174,16 +174,20 @@ std::vector<std::string> add_tracks(Recording& recording, const std::string& dri
 std::vector<importing::LogItem> items_of(const Recording& recording) {
   std::vector<importing::LogItem> items;
   for (const Frame& frame : recording.scans.files.frames) {
-    items.push_back({frame.stamp, [&frame, &T = recording.T_vehicle_lidar] {
+    items.push_back({frame.stamp,
+                     [&frame, &T = recording.T_vehicle_lidar] {
                        return observation_from_scan(read_scan(frame, T), Carrier::automatic);
-                     }});
+                     },
+                     frame.path});
   }
   for (const CameraFrames& sensor : recording.cameras) {
     for (const Frame& frame : sensor.pictures.files.frames) {
-      items.push_back({frame.stamp, [&frame, &camera = sensor.camera] {
+      items.push_back({frame.stamp,
+                       [&frame, &camera = sensor.camera] {
                          return observation_from_image(
                              importing::read_picture(frame.path, frame.stamp, camera));
-                       }});
+                       },
+                       frame.path});
     }
   }
   for (const PoseSample& sample : recording.poses) {

@@ -5,6 +5,8 @@
 // LIDAR, images CAM0 to CAM3, poses OXTS or POSES; and a drive's labels into boxes and truth.
 #include <iostream>
 #include <optional>
+#include <utility>
+#include <vector>
 
 #include "common/tool_main.h"
 #include "kitti2rawlog/kitti_recording.h"
@@ -62,6 +64,8 @@ void convert(const Options& options) {
                {"--truth-objects", options.labels.truth_objects}});
   RawlogWriter writer(options.output, options.overwrite);
   Recording recording = open_recording(options);
+  std::vector<importing::LogItem> items = items_of(recording);
+  importing::check_room({"--output", options.output}, items);
   std::optional<importing::LabelFiles> labels;
   if (options.labels.any()) {
     labels.emplace(options.labels);
@@ -71,7 +75,7 @@ void convert(const Options& options) {
   }
   {
     Progress progress("converting");
-    importing::write_items(writer, items_of(recording), std::ref(progress));
+    importing::write_items(writer, std::move(items), std::ref(progress));
   }
   if (labels) labels->commit();
   writer.commit();

@@ -87,7 +87,9 @@ std::string joined(const std::set<std::string>& labels) {
 }
 
 void decimate(const Options& options) {
-  check_files({{"--input", options.input}}, {{"--output", options.output}});
+  const FileUse output{"--output", options.output};
+  check_files({{"--input", options.input}}, {output});
+  check_room(output, options.input, false, 1. / static_cast<double>(options.keep_every));
   RawlogReader reader({options.input, options.accept_truncated});
   RawlogWriter writer(options.output, options.overwrite);
   Decimator decimator(options);

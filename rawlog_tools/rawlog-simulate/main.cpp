@@ -20,6 +20,16 @@ void print(const SimulationSummary& s, const std::string& output, double duratio
             << " standing traffic participants; " << s.num_truth_scans << " truth scans\n";
 }
 
+// Noise packs badly; without it, some tenth of a picture is left.
+double least_bytes(const lidar_upsampling::sim::Scenario& scenario) {
+  constexpr double kLeastShare = 0.1;
+  double pixels = 0;
+  for (const auto& spec : scenario.cameras)
+    pixels +=
+        scenario.duration_s * spec.rate_hz * spec.camera.model.width * spec.camera.model.height;
+  return kLeastShare * 3 * pixels;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -53,6 +63,7 @@ int main(int argc, char** argv) {
     // First, so that however much of it is asked for, a seed's situation is one.
     if (!seed_option->empty()) job.scenario = sim::drawn(job.scenario, seed);
     if (!duration->empty()) job.scenario.duration_s = duration_s;
+    check_room({"--output", job.output}, least_bytes(job.scenario));
     SimulationSummary summary;
     {
       Progress progress("simulating");

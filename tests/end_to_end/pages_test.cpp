@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <map>
 #include <regex>
 #include <set>
 
@@ -50,13 +51,92 @@ TEST(Pages, every_program_of_the_build_folder_is_there) {
       EXPECT_TRUE(fs::exists(fs::path(BUILD_FOLDER) / "bin" / tool)) << page << " runs " << tool;
 }
 
-TEST(Pages, every_option_of_densifying_in_an_example_is_one) {
-  const std::string help = run(std::string(RAWLOG_DENSIFY) + " --help").text;
+struct Example {
+  std::string tool, words;
+};
+
+// In blocks and within sentences; commands that go on in the next line are joined.
+std::vector<Example> examples_of(const fs::path& page) {
+  static const std::regex joint(R"(\\\n *)"),
+      command(R"(((?:rawlog|kitti2rawlog|argoverse2rawlog|dgp2rawlog)[a-z-]*))"
+              R"(((?: +[-\w./=<>{},$]+)*))");
+  const std::string text = std::regex_replace(text_of_page(page), joint, " ");
+  std::vector<Example> found;
+  for (std::sregex_iterator match(text.begin(), text.end(), command), end; match != end; ++match)
+    if (fs::exists(fs::path(BUILD_FOLDER) / "bin" / (*match)[1].str()))
+      found.push_back({(*match)[1], (*match)[2]});
+  return found;
+}
+
+// What a tool prints when it is given one option.
+const std::string& said_by(const std::string& tool, const std::string& option) {
+  static std::map<std::string, std::string> known;
+  std::string& text = known[tool + option];
+  if (text.empty()) text = run(std::string(BUILD_FOLDER) + "/bin/" + tool + " " + option).text;
+  return text;
+}
+
+TEST(Pages, every_option_of_a_tool_in_an_example_is_one) {
+  int num_options = 0;
   for (const fs::path& page : pages())
-    for (const std::string& line :
-         matches(text_of_page(page), R"(rawlog-densify((?: +[-\w./=$<>]+)+))"))
-      for (const std::string& option : matches(line, R"((--[a-z-]+))"))
-        EXPECT_NE(help.find(option), std::string::npos) << page << ": " << line;
+    for (const Example& example : examples_of(page))
+      for (const std::string& option : matches(example.words, R"( (--?[a-z][a-z-]*))")) {
+        const std::regex listed("[ ,]" + option + "[ ,\n]");
+        EXPECT_TRUE(std::regex_search(said_by(example.tool, "--help"), listed))
+            << page << ": " << example.tool << example.words << ": " << option;
+        ++num_options;
+      }
+  EXPECT_GE(num_options, 40);
+}
+
+TEST(Pages, every_setting_in_an_example_is_one) {
+  int num_settings = 0;
+  for (const fs::path& page : pages())
+    for (const std::string& name :
+         matches(text_of_page(page), R"(--set (?:\w+\.)?(?!name)([a-z_0-9]+) ?=)")) {
+      EXPECT_TRUE(contains(said_by("rawlog-densify", "--print-config"), "\n" + name + " ="))
+          << page << ": " << name;
+      ++num_settings;
+    }
+  EXPECT_GE(num_settings, 3);
+}
+
+TEST(Pages, every_file_of_config_that_is_named_is_there) {
+  for (const fs::path& page : pages())
+    for (const std::string& file : matches(text_of_page(page), R"((config/[\w/-]+\.\w+))"))
+      EXPECT_TRUE(fs::exists(fs::path(PROJECT_FOLDER) / file)) << page << " names " << file;
+}
+
+TEST(Pages, no_word_stands_twice_in_a_row) {
+  const std::regex twice(R"([\s(]([A-Za-z]{2,})\s+\1[\s.,;:)])");
+  for (const fs::path& page : pages()) {
+    const std::string text = text_of_page(page);
+    std::smatch match;
+    EXPECT_FALSE(std::regex_search(text, match, twice)) << page << ": " << match[0];
+  }
+}
+
+// The first block of commands behind a headline.
+std::string commands_behind(const std::string& headline, const fs::path& page) {
+  const std::string text = text_of_page(page), fence = "```\n";
+  const auto begin = text.find(fence, text.find(headline)) + fence.size();
+  return text.substr(begin, text.find(fence, begin) - begin);
+}
+
+TEST(Pages, README_makes_a_dense_log_a_film_and_a_page_of_a_drive_as_written) {
+  const fs::path day = data_folder() / "kitti_raw/2011_09_26";
+  if (!fs::exists(day / "2011_09_26_drive_0052_sync")) GTEST_SKIP() << "no " << day;
+  const TestFolder folder;
+  fs::create_directories(folder.path() / "build/release");
+  fs::create_symlink(fs::path(BUILD_FOLDER) / "bin", folder.path() / "build/release/bin");
+  fs::create_symlink(fs::path(PROJECT_FOLDER) / "config", folder.path() / "config");
+  fs::create_symlink(fs::canonical(day), folder.path() / day.filename());
+  std::ofstream(folder / "commands") << "set -eu\n"
+                                     << commands_behind("## Your own log", pages().front());
+  expect_done("cd " + folder.path().string() + " && bash commands");
+  for (const char* const made :
+       {"full.rawlog", "sparse.rawlog", "dense.rawlog", "report.json", "film.mp4", "page.html"})
+    EXPECT_GT(fs::file_size(folder.path() / made), 1000U) << made;
 }
 
 TEST(Pages, README_tells_it_in_a_hundred_lines) {

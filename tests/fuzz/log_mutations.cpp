@@ -10,6 +10,7 @@
 #include "fuzz/observation_mutations.h"
 #include "lidar_upsampling/io/packer.h"
 #include "lidar_upsampling/io/rawlog_stream.h"
+#include "lidar_upsampling/io/silence.h"
 
 namespace lidar_upsampling::fuzz {
 namespace {
@@ -85,6 +86,7 @@ Bytes whole_log(const LogSeed& seed) {
 }
 
 Bytes damaged_log(const LogSeed& seed, Random& random) {
+  const Silence silence;  // MRPT's objects tell of what is spoilt here
   std::vector<Bytes> parts = parts_of(seed);
   for (std::size_t i = random.below(4); i > 0; --i)
     spoil_field(parts[random.below(parts.size())], random);

@@ -2,11 +2,13 @@
 // Copyright (c) 2026, the lidar_upsampling authors
 #include "fuzz/target.h"
 
+#include <sys/mman.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <array>
 #include <csignal>
+#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -21,14 +23,42 @@ namespace lidar_upsampling::fuzz {
 namespace {
 
 std::array<char, 200> now_at_work{};
+const int terminal = dup(STDERR_FILENO);  // where the process's own stderr goes
+
+void tell(const char* text) { static_cast<void>(!write(terminal, text, std::strlen(text))); }
 
 void tell_input() {
   if (now_at_work[0] == 0) return;
-  constexpr const char* kText = "\nthe process ends at: fuzz ";
-  static_cast<void>(!write(STDERR_FILENO, kText, std::strlen(kText)));
-  static_cast<void>(!write(STDERR_FILENO, now_at_work.data(), std::strlen(now_at_work.data())));
-  static_cast<void>(!write(STDERR_FILENO, "\n", 1));
+  tell("\nthe process ends at: fuzz ");
+  tell(now_at_work.data());
+  tell("\n");
 }
+
+/// While it lives, what any library prints on stderr is kept.
+class KeptStderr {
+ public:
+  KeptStderr() {
+    std::fflush(stderr);
+    dup2(file_, STDERR_FILENO);
+  }
+  ~KeptStderr() {
+    std::fflush(stderr);
+    dup2(terminal, STDERR_FILENO);
+    close(file_);
+  }
+  KeptStderr(const KeptStderr&) = delete;
+  KeptStderr& operator=(const KeptStderr&) = delete;
+
+  [[nodiscard]] std::string text() const {
+    std::array<char, 300> begin{};
+    std::fflush(stderr);
+    const ssize_t size = pread(file_, begin.data(), begin.size(), 0);
+    return {begin.data(), static_cast<std::size_t>(std::max<ssize_t>(0, size))};
+  }
+
+ private:
+  int file_ = memfd_create("stderr", 0);
+};
 
 extern "C" void tell_and_end(int signal) {
   tell_input();
@@ -78,9 +108,9 @@ const std::vector<Target>& all_targets() {
   return all;
 }
 
-std::optional<std::string> failure_of(const Target& target, std::uint64_t seed) {
-  const AtWork noted(target.name, seed);
-  Random random(seed);
+namespace {
+
+std::optional<std::string> failure_of(const Target& target, Random& random) {
   try {
     target.run(random);
     return {};
@@ -93,11 +123,24 @@ std::optional<std::string> failure_of(const Target& target, std::uint64_t seed) 
   }
 }
 
+}  // namespace
+
+std::optional<std::string> failure_of(const Target& target, std::uint64_t seed) {
+  const AtWork noted(target.name, seed);
+  Random random(seed);
+  const KeptStderr printed;
+  if (const auto failure = failure_of(target, random)) return failure;
+  const std::string text = printed.text();
+  if (!text.empty()) return "printed by a library: " + text;
+  return {};
+}
+
 const char* at_work() { return now_at_work.data(); }
 
 void tell_of_ends() {
 #if defined(__SANITIZE_ADDRESS__)
   __sanitizer_set_death_callback(tell_input);  // it handles the signals, too
+  __sanitizer_set_report_fd(reinterpret_cast<void*>(static_cast<std::intptr_t>(terminal)));
 #else
   for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT})
     std::signal(signal, tell_and_end);

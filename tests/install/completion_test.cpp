@@ -53,6 +53,16 @@ TEST(Completion, settings_are_completed_by_their_names) {
                    "resample.max_bend_per_range="}));
 }
 
+TEST(Completion, settings_are_completed_by_their_words_for_each_tool_that_takes_them) {
+  for (const char* const tool : {"rawlog-densify", "rawlog-evaluate"}) {
+    EXPECT_EQ(completed(tool, "--set resample \"=\""), (Words{"none", "beam"})) << tool;
+    EXPECT_EQ(completed(tool, "--set resample \"=\" b"), Words{"beam"}) << tool;
+    EXPECT_EQ(completed(tool, "--overwrite --set ego_motion.source \"=\" g"), Words{"gnss"})
+        << tool;
+    EXPECT_EQ(completed(tool, "--set timing.min_gap_ms \"=\""), Words{}) << tool;
+  }
+}
+
 TEST(Completion, is_loaded_by_the_tools_name) {
   for (const std::string& tool : tool_names())
     EXPECT_TRUE(contains(text_of("bash -c 'source " BUILD_FOLDER "/completions/" + tool +

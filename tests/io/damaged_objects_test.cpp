@@ -1,10 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the lidar_upsampling authors
 #include <mrpt/core/aligned_allocator.h>
+#include <mrpt/io/CMemoryStream.h>
 #include <mrpt/io/lazy_load_path.h>
+#include <mrpt/obs/CActionCollection.h>
+#include <mrpt/obs/CActionRobotMovement2D.h>
 #include <mrpt/obs/CObservation3DRangeScan.h>
+#include <mrpt/poses/CPosePDFGaussian.h>
+#include <mrpt/serialization/CArchive.h>
 
+#include <algorithm>
 #include <limits>
+#include <memory>
 #include <new>
 #include <thread>
 
@@ -135,6 +142,33 @@ TEST(DamagedObject, of_a_class_that_has_no_objects_is_told_in_our_line_alone) {
   bytes.insert(bytes.end(), name.begin(), name.end());
   bytes.insert(bytes.end(), 20, 0);
   expect_told(read_after_a_good_one(bytes), name);
+}
+
+Bytes bytes_of(const mrpt::serialization::CSerializable* object) {
+  mrpt::io::CMemoryStream memory;
+  mrpt::serialization::archiveFrom(memory).WriteObject(object);
+  const auto* const begin = static_cast<const std::uint8_t*>(memory.getRawBufferData());
+  return {begin, begin + memory.getTotalBytesCount()};
+}
+
+// What stands in the place of a whole object's bytes.
+Bytes with_other(const Bytes& all, const Bytes& object, const Bytes& other) {
+  const auto place = std::search(all.begin(), all.end(), object.begin(), object.end());
+  EXPECT_NE(place, all.end());
+  return joined({Bytes(all.begin(), place), other,
+                 Bytes(place + static_cast<std::ptrdiff_t>(object.size()), all.end())});
+}
+
+TEST(DamagedObject, that_holds_none_or_another_than_it_may_is_told) {
+  mrpt::obs::CActionRobotMovement2D action;
+  action.estimationMethod = mrpt::obs::CActionRobotMovement2D::emScan2DMatching;
+  action.poseChange = mrpt::poses::CPosePDFGaussian::Create();
+  const Bytes motion = bytes_of(&*action.poseChange), whole = bytes_of(&action);
+  const Bytes actions = bytes_of(std::make_unique<mrpt::obs::CActionCollection>(action).get());
+  for (const Bytes& other : {bytes_of(nullptr), entry_of(odometry(0)).bytes}) {
+    expect_told(read_after_a_good_one(with_other(actions, whole, other)), "cannot be read");
+    expect_told(read_after_a_good_one(with_other(whole, motion, other)), "cannot be read");
+  }
 }
 
 }  // namespace

@@ -109,5 +109,18 @@ TEST(EgoSamples, actions_are_taken_as_odometry_piece_by_piece) {
   }
 }
 
+TEST(StampDefect, is_a_stamp_that_is_missing_or_so_far_away_that_differences_cannot_be_told) {
+  mrpt::obs::CObservationRobotPose pose;
+  for (const std::int64_t ticks : {std::int64_t{1}, std::int64_t{132000000000000000}}) {
+    pose.timestamp = Stamp(Stamp::duration(ticks));
+    EXPECT_FALSE(stamp_defect_of(pose)) << ticks;
+  }
+  for (const Stamp stamp : {INVALID_TIMESTAMP, Stamp::max(), Stamp::min()}) {
+    pose.timestamp = stamp;
+    EXPECT_TRUE(stamp_defect_of(pose));
+    EXPECT_TRUE(ego_defect_of(pose));
+  }
+}
+
 }  // namespace
 }  // namespace lidar_upsampling

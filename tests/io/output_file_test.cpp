@@ -170,8 +170,23 @@ TEST(CheckRoom, a_log_that_takes_more_than_is_free_is_refused_and_others_are_not
                std::runtime_error);
   EXPECT_THROW(check_room({"--output", folder / "out"}, folder / "packed", false),
                std::runtime_error);
+  EXPECT_NO_THROW(check_room({"--output", folder / "out"}, folder / "packed", false, 1e-12));
   EXPECT_NO_THROW(check_room({"--output", folder / "out"}, folder / "plain", false));
   EXPECT_NO_THROW(check_room({"--output", "/dev/null"}, folder / "plain", true));
+}
+
+TEST(CheckRoom, is_told_of_an_output_of_any_kind) {
+  const TestFolder folder;
+  EXPECT_NO_THROW(check_room({"--output", folder / "out"}, 1000));
+  EXPECT_NO_THROW(check_room({"--output", ""}, 1e18));
+  try {
+    check_room({"--output", folder / "out"}, 1e18);
+    FAIL();
+  } catch (const std::runtime_error& error) {
+    EXPECT_NE(std::string(error.what()).find("MB are free there, and it takes more than"),
+              std::string::npos)
+        << error.what();
+  }
 }
 
 TEST(FileNames, labels_with_slashes_become_names_that_are_told_apart) {

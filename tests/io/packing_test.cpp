@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <random>
 
-#include "lidar_upsampling/io/gzip_reader.h"
-#include "lidar_upsampling/io/gzip_writer.h"
 #include "lidar_upsampling/io/output_file.h"
+#include "lidar_upsampling/io/packed_reader.h"
+#include "lidar_upsampling/io/packed_writer.h"
 #include "small_logs.h"
 #include "test_folder.h"
 
@@ -28,7 +28,7 @@ Bytes some_bytes(std::size_t size, unsigned seed = 1) {
 
 void write_file(const std::string& path, Compression compression, const std::vector<Bytes>& parts) {
   OutputFile file(path);
-  GzipWriter writer(file, compression);
+  PackedWriter writer(file, compression);
   for (const Bytes& part : parts) writer.write(part);
   writer.finish();
   file.commit();
@@ -87,7 +87,7 @@ struct TwoMembers {
   std::size_t size_of_first = 0;
 };
 
-Bytes read_to_the_end(RecordingGzipReader& reader) {
+Bytes read_to_the_end(PackedReader& reader) {
   Bytes block(100000);
   while (reader.Read(block.data(), block.size()) > 0) {
   }
@@ -99,7 +99,7 @@ TEST(Unpacking, all_good_bytes_before_a_defect_are_given) {
   TwoMembers file;
   file.packed[file.size_of_first + 200000] ^= 0x40U;
   write_bytes(folder / "a", file.packed);
-  RecordingGzipReader reader(folder / "a");
+  PackedReader reader(folder / "a");
   EXPECT_FALSE(reader.defect()) << "not before the good bytes are read";
   const Bytes got = read_to_the_end(reader);
   ASSERT_TRUE(reader.defect());
@@ -113,7 +113,7 @@ TEST(Unpacking, a_cut_within_a_member_is_told_and_costs_only_what_is_behind_it) 
   TwoMembers file;
   file.packed.resize(file.size_of_first + 100);
   write_bytes(folder / "a", file.packed);
-  RecordingGzipReader reader(folder / "a");
+  PackedReader reader(folder / "a");
   EXPECT_GE(read_to_the_end(reader).size(), file.first.size());
   ASSERT_TRUE(reader.defect());
   EXPECT_NE(reader.defect()->find("cut off"), std::string::npos) << *reader.defect();
@@ -124,7 +124,7 @@ TEST(Unpacking, what_follows_a_member_and_is_none_is_a_defect) {
   const TwoMembers file;
   for (const Bytes& more : {Bytes(1, 0), Bytes(4096, 0), Bytes{0x1f}, Bytes{'e', 'n', 'd'}}) {
     write_bytes(folder / "a", joined({file.packed, more}));
-    RecordingGzipReader reader(folder / "a");
+    PackedReader reader(folder / "a");
     EXPECT_EQ(read_to_the_end(reader), joined({file.first, file.second})) << more.size();
     ASSERT_TRUE(reader.defect());
     EXPECT_NE(reader.defect()->find("damaged"), std::string::npos) << *reader.defect();
@@ -137,7 +137,7 @@ TEST(Unpacking, a_member_whose_header_is_damaged_is_a_defect) {
     TwoMembers file;
     file.packed[file.size_of_first + at] ^= 0x40U;
     write_bytes(folder / "a", file.packed);
-    RecordingGzipReader reader(folder / "a");
+    PackedReader reader(folder / "a");
     EXPECT_EQ(read_to_the_end(reader), file.first) << at;
     EXPECT_TRUE(reader.defect()) << at;
   }
@@ -150,7 +150,7 @@ TEST(Unpacking, of_a_small_file_all_but_what_the_defect_makes_unknown_is_given) 
   Bytes packed = file_bytes(folder / "a");
   packed[packed.size() - 6] ^= 0x01U;  // of the checksum
   write_bytes(folder / "a", packed);
-  RecordingGzipReader reader(folder / "a");
+  PackedReader reader(folder / "a");
   EXPECT_EQ(read_to_the_end(reader), bytes);
   EXPECT_TRUE(reader.defect());
 }
@@ -159,7 +159,7 @@ TEST(Unpacking, tells_how_much_there_is_from_the_record_on) {
   const TestFolder folder;
   const TwoMembers file;
   write_bytes(folder / "a", file.packed);
-  RecordingGzipReader reader(folder / "a");
+  PackedReader reader(folder / "a");
   Bytes block(1000);
   const std::size_t all = file.first.size() + file.second.size();
   EXPECT_EQ(reader.bytes_from_record_on(), all);
@@ -172,12 +172,12 @@ TEST(Unpacking, tells_how_much_there_is_from_the_record_on) {
 TEST(Unpacking, a_reader_that_is_left_early_does_not_wait) {
   const TestFolder folder;
   write_file(folder / "a", Compression::fast, {some_bytes(20 * kMember)});
-  RecordingGzipReader reader(folder / "a");
+  PackedReader reader(folder / "a");
   std::uint8_t one = 0;
   EXPECT_EQ(reader.Read(&one, 1), 1U);
 }
 
-TEST(GzipWriter, keeps_what_is_written_at_once_in_one_member) {
+TEST(PackedWriter, keeps_what_is_written_at_once_in_one_member) {
   const TestFolder folder;
   const Bytes part = some_bytes(kMember + 1);
   write_file(folder / "one", Compression::fast, {part});

@@ -12,8 +12,8 @@
 #include <string>
 #include <vector>
 
-#include "lidar_upsampling/io/gzip_reader.h"
 #include "lidar_upsampling/io/images.h"
+#include "lidar_upsampling/io/packed_reader.h"
 #include "lidar_upsampling/io/rawlog_stream.h"
 
 namespace lidar_upsampling {
@@ -63,7 +63,7 @@ inline void write_bytes(const std::string& path, const Bytes& bytes) {
 }
 
 inline Bytes uncompressed(const std::string& path) {
-  RecordingGzipReader reader(path);
+  PackedReader reader(path);
   Bytes all, block(1U << 20U);
   while (const std::size_t step = reader.Read(block.data(), block.size()))
     all.insert(all.end(), block.data(), block.data() + step);

@@ -29,6 +29,8 @@ TEST_F(RawlogGrabber, records_every_real_observation_unchanged_and_a_virtual_sca
     }
   EXPECT_TRUE(contains(words, "20 virtual scans")) << words;
   EXPECT_TRUE(contains(words, "dropped as late: 0 virtual scans, 0 key scans")) << words;
+  EXPECT_TRUE(contains(words, "played to its end")) << words;
+  EXPECT_FALSE(contains(words, "ERROR")) << words;
 }
 
 TEST_F(RawlogGrabber, at_real_time_what_is_late_is_counted_and_nothing_real_is_lost) {
@@ -103,6 +105,20 @@ TEST_F(RawlogGrabber, a_misspelt_key_is_refused_by_its_name) {
   simulate(folder_);
   const std::string words = grab("'s/^max_queue = /max_que = /'");
   EXPECT_TRUE(contains(words, "(UPSAMPLED_LIDAR) max_que: there is no such setting")) << words;
+  EXPECT_EQ(recording(), "");
+}
+
+TEST_F(RawlogGrabber, without_its_log_says_so_and_leaves_no_recording) {
+  const std::string words = grab("''");
+  EXPECT_TRUE(contains(words, "in.rawlog")) << words;
+  EXPECT_EQ(recording(), "");
+}
+
+TEST_F(RawlogGrabber, of_a_log_that_is_none_says_so_and_leaves_no_recording) {
+  std::ofstream(folder_ / "in.rawlog") << "text";
+  const std::string words = grab("''");
+  EXPECT_TRUE(contains(words, "is no rawlog that can be read")) << words;
+  EXPECT_EQ(recording(), "");
 }
 
 }  // namespace

@@ -188,5 +188,20 @@ TEST(Kitti2Rawlog, real_drive_0005_has_40_frames_and_reports_the_rest) {
   EXPECT_EQ(num_of(folder / "out.rawlog", "OXTS", StreamKind::pose), 40U);
 }
 
+TEST(Kitti2Rawlog, a_broken_picture_is_told_in_our_line_alone) {
+  const TestFolder folder;
+  const fs::path drive = write_drive(folder),
+                 broken = drive / "image_02/data" / numbered(3, ".png");
+  std::fstream file(broken, std::ios::binary | std::ios::in | std::ios::out);
+  file.seekp(static_cast<std::streamoff>(fs::file_size(broken) / 2));
+  file << std::string(100, 'x');
+  file.close();
+  const ToolResult result = run_for_errors(command(drive, folder / "a.rawlog", ""));
+  EXPECT_EQ(result.status, 1);
+  EXPECT_EQ(result.text,
+            "kitti2rawlog: " + broken.string() + " holds no picture, or a broken one\n");
+  EXPECT_FALSE(fs::exists(folder / "a.rawlog"));
+}
+
 }  // namespace
 }  // namespace lidar_upsampling

@@ -18,7 +18,6 @@ namespace {
 
 using mrpt::obs::CObservation;
 
-constexpr const char* kNoStamp = "it has no time stamp";
 constexpr const char* kNoPose = "its pose on the vehicle is not finite";
 
 bool is_finite(const Pose& pose) { return pose.matrix().allFinite(); }
@@ -64,7 +63,7 @@ std::nullopt_t UsableObservations::refuse(const CObservation& observation, const
 }
 
 std::optional<LidarScan> UsableObservations::scan(const CObservation& observation) {
-  if (observation.timestamp == INVALID_TIMESTAMP) return refuse(observation, kNoStamp);
+  if (const auto defect = stamp_defect_of(observation)) return refuse(observation, *defect);
   std::optional<LidarScan> scan;
   try {
     scan = scan_from_observation(observation);
@@ -82,7 +81,7 @@ std::optional<LidarScan> UsableObservations::scan(const CObservation& observatio
 
 std::optional<CameraImage> UsableObservations::image(
     const mrpt::obs::CObservationImage& observation) {
-  if (observation.timestamp == INVALID_TIMESTAMP) return refuse(observation, kNoStamp);
+  if (const auto defect = stamp_defect_of(observation)) return refuse(observation, *defect);
   Camera camera = camera_of(observation);
   apply(rig_, camera);
   if (!is_finite(camera.T_vehicle_camera)) return refuse(observation, kNoPose);

@@ -13,6 +13,7 @@
 #include "lidar_upsampling/io/images.h"
 #include "lidar_upsampling/io/reading_guard.h"
 #include "lidar_upsampling/io/scan_classes.h"
+#include "lidar_upsampling/io/silence.h"
 #include "lidar_upsampling/io/unpacker.h"
 #include "lidar_upsampling/text.h"
 
@@ -52,6 +53,7 @@ std::uint64_t unpacked_size_of_all(const std::vector<std::string>& files) {
 }
 
 void read_points(const mrpt::obs::CObservation& observation, LidarScan& scan) {
+  const Silence silence;
   // Some classes load nothing from a missing file, without a word.
   const std::vector<std::string> files = external_files(observation);
   for (const std::string& file : files)

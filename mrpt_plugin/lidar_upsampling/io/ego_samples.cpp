@@ -94,7 +94,14 @@ std::optional<std::string> ego_defect_of(const mrpt::obs::CObservation& observat
   const auto* const gps = dynamic_cast<const mrpt::obs::CObservationGPS*>(&observation);
   const auto fix = gps != nullptr ? gnss_sample(*gps) : std::nullopt;
   if (fix && !is_on_globe(*fix)) return "its fix lies off the globe, or is not finite";
-  if ((sample || fix) && observation.timestamp == INVALID_TIMESTAMP) return "it has no time stamp";
+  return sample || fix ? stamp_defect_of(observation) : std::nullopt;
+}
+
+std::optional<std::string> stamp_defect_of(const mrpt::obs::CObservation& observation) {
+  constexpr Stamp kFirst, kLast(Stamp::duration(4000000000000000000));  // 12000 years later
+  const Stamp stamp = observation.timestamp;
+  if (stamp == INVALID_TIMESTAMP) return "it has no time stamp";
+  if (stamp < kFirst || stamp > kLast) return "it has no time stamp that can be";
   return {};
 }
 

@@ -25,6 +25,10 @@ namespace lidar_upsampling {
 /// it tells nothing.
 [[nodiscard]] std::optional<std::string> ego_defect_of(const mrpt::obs::CObservation& observation);
 
+/// Why an observation's stamp is of no use; none: it is. Differences of useful ones can be told.
+[[nodiscard]] std::optional<std::string> stamp_defect_of(
+    const mrpt::obs::CObservation& observation);
+
 /// @brief Sums up the vehicle's movements that precede a log's frames.
 class ActionOdometry {
  public:

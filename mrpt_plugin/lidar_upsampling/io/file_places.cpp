@@ -76,14 +76,8 @@ void check_files(const std::vector<FileUse>& inputs, const std::vector<FileUse>&
   }
 }
 
-void check_room(const FileUse& output, const std::string& input, bool as_it_is) {
-  constexpr double kPackedAnew = 0.5;  // by another packer: never as little
-  std::error_code error;
-  if (is_device_or_pipe(output.path) || !fs::is_regular_file(input, error)) return;
-  const bool is_packed = Unpacker(input).is_packed();
-  if (!is_packed && !as_it_is) return;  // nobody knows
-  const double least =
-      static_cast<double>(fs::file_size(input)) * (is_packed && !as_it_is ? kPackedAnew : 1);
+void check_room(const FileUse& output, double least) {
+  if (output.path.empty() || is_device_or_pipe(output.path)) return;
   struct statvfs disk {};
   const std::string folder = fs::path(output_place(output.path, true)).parent_path().string();
   if (statvfs(folder.c_str(), &disk) != 0 || disk.f_blocks == 0) return;
@@ -92,6 +86,16 @@ void check_room(const FileUse& output, const std::string& input, bool as_it_is) 
   if (free >= least) return;
   throw std::runtime_error(output.told_by + " " + output.path + ": " + megabytes(free) +
                            " are free there, and it takes more than " + megabytes(least));
+}
+
+void check_room(const FileUse& output, const std::string& input, bool as_it_is, double share) {
+  constexpr double kPackedAnew = 0.5;  // by another packer: never as little
+  std::error_code error;
+  if (!fs::is_regular_file(input, error)) return;
+  const bool is_packed = Unpacker(input).is_packed();
+  if (!is_packed && !as_it_is) return;  // nobody knows
+  const double packed_anew = is_packed && !as_it_is ? kPackedAnew : 1;
+  check_room(output, static_cast<double>(fs::file_size(input)) * packed_anew * share);
 }
 
 std::string FileNames::of(const std::string& label) {

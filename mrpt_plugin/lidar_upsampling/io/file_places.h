@@ -27,10 +27,15 @@ struct FileUse {
 /// @throw std::runtime_error which one, and why
 void check_files(const std::vector<FileUse>& inputs, const std::vector<FileUse>& outputs);
 
-/// @brief Looks whether a log that is made of another one has room: all of it is written again.
-/// @param as_it_is it is not packed, or as the other one is.
+/// @brief Looks whether an output has room, before the work.
+/// @param least bytes that it takes in any case
 /// @throw std::runtime_error how much is free, and how much it takes at least
-void check_room(const FileUse& output, const std::string& input, bool as_it_is);
+void check_room(const FileUse& output, double least);
+
+/// @brief Likewise for a log that is made of another one, of which this share at least is written
+/// again.
+/// @param as_it_is it is not packed, or as the other one is.
+void check_room(const FileUse& output, const std::string& input, bool as_it_is, double share = 1);
 
 /// @brief What labels are called in names of files: `/` and what may not be there is `_`; labels
 /// that become the same thereby are told apart by a number.

@@ -8,6 +8,7 @@
 #include <opencv2/imgproc.hpp>
 #include <stdexcept>
 
+#include "lidar_upsampling/io/silence.h"
 #include "lidar_upsampling/text.h"
 
 namespace lidar_upsampling {
@@ -29,6 +30,7 @@ cv::Mat to_8_bit(const cv::Mat& pixels) {
 
 cv::Mat load_pixels(const mrpt::obs::CObservationImage& observation) {
   const CImage& image = observation.image;
+  const Silence silence;
   try {
     if (image.isExternallyStored()) image.forceLoad();
     cv::Mat pixels = to_8_bit(image.asCvMat<cv::Mat>(mrpt::img::DEEP_COPY));

@@ -15,12 +15,12 @@
 #include <filesystem>
 #include <system_error>
 
-#include "lidar_upsampling/io/gzip_reader.h"
-#include "lidar_upsampling/io/gzip_writer.h"
 #include "lidar_upsampling/io/next_object.h"
 #include "lidar_upsampling/io/output_file.h"
+#include "lidar_upsampling/io/packed_reader.h"
+#include "lidar_upsampling/io/packed_writer.h"
+#include "lidar_upsampling/io/reading_error.h"
 #include "lidar_upsampling/io/reading_guard.h"
-#include "lidar_upsampling/text.h"
 
 namespace fs = std::filesystem;
 
@@ -35,45 +35,6 @@ void register_stock_classes() {
     return true;
   }();
   static_cast<void>(done);
-}
-
-// What stands from there to the next quote.
-std::string up_to_quote(const std::string& text, std::size_t from) {
-  return text.substr(from, text.find('\'', from) - from);
-}
-
-// The class whose version this MRPT does not know; empty: that is not what happened.
-std::string class_of_newer_version(const std::string& text) {
-  const std::string kVersion = "unknown serialization version number: '", kClass = "typed object '";
-  const auto version = text.find(kVersion);
-  const auto name = text.rfind(kClass, version);  // objects within objects: the innermost
-  if (version == std::string::npos || name == std::string::npos) return {};
-  return up_to_quote(text, name + kClass.size()) + " of version " +
-         up_to_quote(text, version + kVersion.size());
-}
-
-// The class that this MRPT does not know, be it that of an object within one; empty: that is not
-// what happened.
-std::string unknown_class(const std::string& text) {
-  const auto end = text.find("not registered");
-  const auto line = text.rfind('\n', end) + 1;
-  const auto name = text.find('\'', line);
-  return end == std::string::npos || name > end ? "" : up_to_quote(text, name + 1);
-}
-
-std::string explain(const std::exception& error) {
-  // MRPT puts a line of its own before.
-  const std::string all = error.what();
-  const auto picture = all.find(kBrokenJpeg);
-  if (picture != std::string::npos) return all.substr(picture, all.find('\n', picture) - picture);
-  const std::string newer = class_of_newer_version(all);
-  if (!newer.empty())
-    return "class " + newer + " is not known here: the log was made by a newer MRPT, or is damaged";
-  const std::string unknown = unknown_class(all);
-  if (!unknown.empty())
-    return "class " + unknown +
-           " is not known here: the log was made by a newer MRPT, or needs a plugin";
-  return one_line(error);
 }
 
 // MRPT stores colour pictures as JPEG unless told otherwise: what we write shall lose nothing.
@@ -140,7 +101,7 @@ bool share_external_storage(const std::string& source_rawlog, const std::string&
 RawlogReader::RawlogReader(const LogFile& log)
     : log_(log),
       external_storage_(external_storage_of(log.path)),
-      stream_(std::make_unique<RecordingGzipReader>(log.path)),
+      stream_(std::make_unique<PackedReader>(log.path)),
       archive_(mrpt::serialization::archiveUniquePtrFrom<mrpt::io::CStream>(*stream_)) {
   register_stock_classes();
   announce_external_storage();
@@ -217,7 +178,7 @@ std::optional<std::string> RawlogReader::read_object(RawlogEntry& entry) {
   } catch (const std::exception& error) {
     if (const auto defect = stream_->defect()) return defect;
     if (stream_->at_end()) return "the file ends in the middle of an object";
-    return explain(error);
+    return why_not_read(error);
   }
 }
 
@@ -249,10 +210,10 @@ RawlogEntry entry_of(const mrpt::serialization::CSerializable::Ptr& object) {
 
 RawlogWriter::RawlogWriter(const std::string& path, bool overwrite, Compression compression)
     : own_(std::make_unique<OutputFile>(path, OutputOptions{overwrite})),
-      packed_(std::make_unique<GzipWriter>(*own_, compression)) {}
+      packed_(std::make_unique<PackedWriter>(*own_, compression)) {}
 
 RawlogWriter::RawlogWriter(OutputFile& file, Compression compression)
-    : packed_(std::make_unique<GzipWriter>(file, compression)) {}
+    : packed_(std::make_unique<PackedWriter>(file, compression)) {}
 
 RawlogWriter::~RawlogWriter() = default;
 

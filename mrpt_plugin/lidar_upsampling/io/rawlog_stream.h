@@ -17,9 +17,9 @@
 
 namespace lidar_upsampling {
 
-class GzipWriter;
+class PackedWriter;
 class OutputFile;
-class RecordingGzipReader;
+class PackedReader;
 
 /// One object of a log, with the very bytes it was read from.
 struct RawlogEntry {
@@ -97,7 +97,7 @@ class RawlogReader {
 
   LogFile log_;
   std::string external_storage_;
-  std::unique_ptr<RecordingGzipReader> stream_;
+  std::unique_ptr<PackedReader> stream_;
   std::unique_ptr<mrpt::serialization::CArchive> archive_;
   std::size_t num_good_ = 0;
   std::optional<Stamp> last_stamp_;
@@ -136,7 +136,7 @@ class RawlogWriter {
 
  private:
   std::unique_ptr<OutputFile> own_;
-  std::unique_ptr<GzipWriter> packed_;
+  std::unique_ptr<PackedWriter> packed_;
   std::size_t num_written_ = 0;
 };
 

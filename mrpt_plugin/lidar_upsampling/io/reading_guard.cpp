@@ -2,7 +2,10 @@
 // Copyright (c) 2026, the lidar_upsampling authors
 #include "lidar_upsampling/io/reading_guard.h"
 
+#include <mrpt/obs/CAction.h>
+#include <mrpt/poses/CPosePDF.h>
 #include <mrpt/rtti/CObject.h>
+#include <mrpt/serialization/CArchive.h>
 
 // jpeglib.h needs it before.
 #include <cstdio>
@@ -92,10 +95,43 @@ jpeg_error_mgr* throwing_jpeg_error(jpeg_error_mgr* manager) {
   return manager;
 }
 
+// Of libpng, whose header not every system has that has OpenCV.
+using PngMessage = void(void* png, const char* text);
+using MakePng = void*(const char* version, void* told, PngMessage* error, PngMessage* warning);
+MakePng* system_make_png = nullptr;
+void (*png_longjmp)(void* png, int value) = nullptr;
+
+void leave_png(void* png, const char*) { png_longjmp(png, 1); }
+
+void hear_png_warning(void*, const char*) {}
+
+void* make_quiet_png(const char* version, void* told, PngMessage* error, PngMessage* warning) {
+  return system_make_png(version, told, error != nullptr ? error : leave_png,
+                         warning != nullptr ? warning : hear_png_warning);
+}
+
 std::shared_ptr<mrpt::rtti::CObject> create_object(const mrpt::rtti::TRuntimeClassId* of_class) {
   if (of_class->ptrCreateObject) return of_class->ptrCreateObject();
   throw std::runtime_error(std::string("there are no objects of class ") + of_class->className);
 }
+
+// MRPT copies these without a look at whether there is one.
+template <typename Class>
+class NeverNull {
+ public:
+  static void rebind_reading(const char* symbol);
+
+ private:
+  using Read = std::shared_ptr<Class>(mrpt::serialization::CArchive*);
+
+  static std::shared_ptr<Class> read(mrpt::serialization::CArchive* from) {
+    auto object = system_read(from);
+    if (!object) throw std::runtime_error("an empty object, or one of another class, within one");
+    return object;
+  }
+
+  static inline Read* system_read = nullptr;
+};
 
 template <typename Function>
 void rebind_to(const char* symbol, Function* replacement, Function*& original) {
@@ -103,9 +139,20 @@ void rebind_to(const char* symbol, Function* replacement, Function*& original) {
   if (original != nullptr) rebind(symbol, reinterpret_cast<void*>(replacement));
 }
 
+template <typename Class>
+void NeverNull<Class>::rebind_reading(const char* symbol) {
+  rebind_to(symbol, read, system_read);
+}
+
 void rebind_all() {
+  NeverNull<mrpt::obs::CAction>::rebind_reading(
+      "_ZN4mrpt13serialization8CArchive10ReadObjectINS_3obs7CActionEEENT_3PtrEv");
+  NeverNull<mrpt::poses::CPosePDF>::rebind_reading(
+      "_ZN4mrpt13serialization8CArchive10ReadObjectINS_5poses8CPosePDFEEENT_3PtrEv");
   rebind_to("_Znwm", checked_new, system_new);
   rebind_to("jpeg_std_error", throwing_jpeg_error, system_jpeg_error);
+  png_longjmp = reinterpret_cast<decltype(png_longjmp)>(function_named("png_longjmp"));
+  if (png_longjmp != nullptr) rebind_to("png_create_read_struct", make_quiet_png, system_make_png);
   rebind("_ZN4mrpt14aligned_mallocEmm", reinterpret_cast<void*>(aligned_malloc));
   rebind("_ZNK4mrpt4rtti15TRuntimeClassId12createObjectEv", reinterpret_cast<void*>(create_object));
 }

@@ -6,6 +6,8 @@
 #include <functional>
 #include <optional>
 
+#include "lidar_upsampling/io/silence.h"
+
 namespace lidar_upsampling {
 
 /// How the exception of a broken JPEG picture begins.
@@ -17,8 +19,9 @@ inline constexpr const char* kBrokenJpeg = "a JPEG picture is broken: ";
 ///
 /// With the first one, this holds for the whole process and all threads: where memory is short,
 /// MRPT's aligned vectors throw std::bad_alloc (MRPT 2.5.8 uses the null pointer); a broken JPEG
-/// picture is a std::runtime_error (libjpeg ends the process), and neither it nor a class that
-/// cannot be made prints a line of its own.
+/// picture is a std::runtime_error (libjpeg ends the process), and neither it, nor a broken PNG
+/// picture, nor a class that cannot be made prints a line of its own; an action or its motion that
+/// is none is an exception (MRPT uses the null pointer).
 class ReadingGuard {
  public:
   /// What the object and the rest of the file hold, unpacked; none: not known.
@@ -47,6 +50,7 @@ class ReadingGuard {
   void check(std::uint64_t size, std::uint64_t per_byte);
 
  private:
+  Silence silence_;
   BytesLeft bytes_left_;
   std::optional<std::uint64_t> left_;  // once asked for
   ReadingGuard* outer_;

@@ -8,6 +8,8 @@
 
 #include <algorithm>
 
+#include "lidar_upsampling/io/silence.h"
+
 namespace lidar_upsampling {
 namespace {
 
@@ -29,6 +31,7 @@ FrameLayout current_layout() {
 
 // By reading once more, this time noting where each observation starts and ends.
 std::vector<RawlogEntry> read_observations(const RawlogEntry& frame, std::size_t header_size) {
+  const Silence silence;
   mrpt::io::CMemoryStream stream;
   stream.assignMemoryNotOwn(frame.bytes.data(), frame.bytes.size());
   stream.Seek(static_cast<std::int64_t>(header_size));

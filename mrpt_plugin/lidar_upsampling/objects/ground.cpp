@@ -47,8 +47,10 @@ class CellGrid {
   /// Between the centres of the four cells around.
   [[nodiscard]] float interpolate(const std::vector<float>& values,
                                   const Eigen::Vector3f& p) const {
-    const float x = std::clamp(column(p.x()), 0.F, static_cast<float>(size_) - 1.001F);
-    const float y = std::clamp(column(p.y()), 0.F, static_cast<float>(size_) - 1.001F);
+    // In this order what is no number becomes 0.
+    const float most = static_cast<float>(size_) - 1.001F;
+    const float x = std::max(0.F, std::min(column(p.x()), most));
+    const float y = std::max(0.F, std::min(column(p.y()), most));
     const int ix = static_cast<int>(x);
     const int iy = static_cast<int>(y);
     const float fx = x - static_cast<float>(ix);

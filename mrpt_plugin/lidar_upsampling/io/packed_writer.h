@@ -19,13 +19,13 @@ class OutputFile;
 
 /// @brief Fills a file with gzip members one after the other, with a zstd frame or plainly, packed
 /// by a thread of its own. The same writes give the same file.
-class GzipWriter {
+class PackedWriter {
  public:
   /// @param file nobody else writes to it before finish(). Must outlive this.
-  GzipWriter(OutputFile& file, Compression compression);
-  ~GzipWriter();
-  GzipWriter(const GzipWriter&) = delete;
-  GzipWriter& operator=(const GzipWriter&) = delete;
+  PackedWriter(OutputFile& file, Compression compression);
+  ~PackedWriter();
+  PackedWriter(const PackedWriter&) = delete;
+  PackedWriter& operator=(const PackedWriter&) = delete;
 
   /// What is written at once stays in one gzip member.
   /// @throw std::runtime_error the system's reason, as "No space left on device", of this write or

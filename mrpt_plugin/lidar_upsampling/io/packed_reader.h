@@ -20,13 +20,13 @@ namespace lidar_upsampling {
 /// thread of its own, and keeps a record of what was read.
 /// mrpt::io::CFileGZInputStream cannot serve: it does not tell the end of the data from a stream
 /// that is cut or damaged, and in most releases knows no zstd.
-class RecordingGzipReader : public mrpt::io::CStream {
+class PackedReader : public mrpt::io::CStream {
  public:
   /// @throw std::runtime_error the file cannot be opened.
-  explicit RecordingGzipReader(const std::string& path);
-  ~RecordingGzipReader() override;
-  RecordingGzipReader(const RecordingGzipReader&) = delete;
-  RecordingGzipReader& operator=(const RecordingGzipReader&) = delete;
+  explicit PackedReader(const std::string& path);
+  ~PackedReader() override;
+  PackedReader(const PackedReader&) = delete;
+  PackedReader& operator=(const PackedReader&) = delete;
 
   /// All good bytes before a defect are given.
   size_t Read(void* buffer, size_t count) override;

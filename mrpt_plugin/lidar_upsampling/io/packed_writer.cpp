@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the lidar_upsampling authors
-#include "lidar_upsampling/io/gzip_writer.h"
+#include "lidar_upsampling/io/packed_writer.h"
 
 #include <utility>
 
@@ -14,19 +14,19 @@ constexpr std::size_t kMostWaiting = 4;     // members: the log's speed is what 
 
 }  // namespace
 
-GzipWriter::GzipWriter(OutputFile& file, Compression compression)
+PackedWriter::PackedWriter(OutputFile& file, Compression compression)
     : file_(file), packer_(make_packer(compression)), worker_([this] { work(); }) {}
 
-GzipWriter::~GzipWriter() {
+PackedWriter::~PackedWriter() {
   if (worker_.joinable()) join();
 }
 
-void GzipWriter::write(const Bytes& bytes) {
+void PackedWriter::write(const Bytes& bytes) {
   block_.insert(block_.end(), bytes.begin(), bytes.end());
   if (block_.size() >= kMember) hand_over(std::exchange(block_, {}));
 }
 
-void GzipWriter::hand_over(Bytes block) {
+void PackedWriter::hand_over(Bytes block) {
   std::unique_lock lock(mutex_);
   changed_.wait(lock, [this] { return error_ || waiting_.size() < kMostWaiting; });
   if (error_) std::rethrow_exception(error_);
@@ -35,7 +35,7 @@ void GzipWriter::hand_over(Bytes block) {
   changed_.notify_all();
 }
 
-void GzipWriter::join() {
+void PackedWriter::join() {
   {
     const std::lock_guard lock(mutex_);
     is_over_ = true;
@@ -44,13 +44,13 @@ void GzipWriter::join() {
   worker_.join();
 }
 
-void GzipWriter::finish() {
+void PackedWriter::finish() {
   if (!block_.empty()) hand_over(std::exchange(block_, {}));
   join();
   if (error_) std::rethrow_exception(error_);
 }
 
-void GzipWriter::work() {
+void PackedWriter::work() {
   while (true) {
     std::unique_lock lock(mutex_);
     changed_.wait(lock, [this] { return is_over_ || !waiting_.empty(); });

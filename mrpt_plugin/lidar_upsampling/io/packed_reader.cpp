@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the lidar_upsampling authors
-#include "lidar_upsampling/io/gzip_reader.h"
+#include "lidar_upsampling/io/packed_reader.h"
 
 #include <algorithm>
 #include <condition_variable>
@@ -16,7 +16,7 @@
 namespace lidar_upsampling {
 
 /// The thread that unpacks, and what it has ready.
-class RecordingGzipReader::Ahead {
+class PackedReader::Ahead {
  public:
   explicit Ahead(const std::string& path) : unpacker_(path), file_size_(unpacker_.file_size()) {
     thread_ = std::thread([this] { unpack(); });
@@ -114,14 +114,14 @@ class RecordingGzipReader::Ahead {
   std::thread thread_;
 };
 
-RecordingGzipReader::RecordingGzipReader(const std::string& path)
+PackedReader::PackedReader(const std::string& path)
     : path_(path), ahead_(std::make_unique<Ahead>(path)) {
   file_size_ = ahead_->file_size();
 }
 
-RecordingGzipReader::~RecordingGzipReader() = default;
+PackedReader::~PackedReader() = default;
 
-size_t RecordingGzipReader::Read(void* buffer, size_t count) {
+size_t PackedReader::Read(void* buffer, size_t count) {
   auto* const out = static_cast<std::uint8_t*>(buffer);
   std::size_t done = take_again(out, count);
   while (done < count) {
@@ -135,16 +135,16 @@ size_t RecordingGzipReader::Read(void* buffer, size_t count) {
   return done;
 }
 
-bool RecordingGzipReader::at_end() { return again_begin_ == again_.size() && ahead_->at_end(); }
+bool PackedReader::at_end() { return again_begin_ == again_.size() && ahead_->at_end(); }
 
-std::optional<std::string> RecordingGzipReader::defect() const {
+std::optional<std::string> PackedReader::defect() const {
   if (again_begin_ < again_.size()) return {};
   return ahead_->defect();
 }
 
-std::optional<std::uint64_t> RecordingGzipReader::resume() { return ahead_->resume(); }
+std::optional<std::uint64_t> PackedReader::resume() { return ahead_->resume(); }
 
-std::size_t RecordingGzipReader::take_again(std::uint8_t* out, std::size_t count) {
+std::size_t PackedReader::take_again(std::uint8_t* out, std::size_t count) {
   const std::size_t step = std::min(count, again_.size() - again_begin_);
   std::copy_n(again_.data() + again_begin_, step, out);
   again_begin_ += step;
@@ -152,7 +152,7 @@ std::size_t RecordingGzipReader::take_again(std::uint8_t* out, std::size_t count
 }
 
 // @return whether there is more to see.
-bool RecordingGzipReader::look_ahead() {
+bool PackedReader::look_ahead() {
   constexpr std::size_t kBlock = 1U << 18U;
   again_.erase(again_.begin(), again_.begin() + static_cast<std::ptrdiff_t>(again_begin_));
   again_begin_ = 0;
@@ -162,7 +162,7 @@ bool RecordingGzipReader::look_ahead() {
   return again_.size() > before;
 }
 
-std::uint64_t RecordingGzipReader::skip_to(
+std::uint64_t PackedReader::skip_to(
     const std::function<bool(const std::uint8_t*, std::size_t)>& begins, std::uint64_t least) {
   position_ -= record_.size();
   again_.erase(again_.begin(), again_.begin() + static_cast<std::ptrdiff_t>(again_begin_));
@@ -180,13 +180,13 @@ std::uint64_t RecordingGzipReader::skip_to(
   return left_out;
 }
 
-std::optional<std::uint64_t> RecordingGzipReader::bytes_from_record_on() {
+std::optional<std::uint64_t> PackedReader::bytes_from_record_on() {
   if (!std::filesystem::is_regular_file(path_)) return {};
   if (!unpacked_size_) unpacked_size_ = unpacked_size_of(path_);
   return *unpacked_size_ - (position_ - record_.size());
 }
 
-std::uint64_t RecordingGzipReader::doubtful_from_record_on() {
+std::uint64_t PackedReader::doubtful_from_record_on() {
   if (!std::filesystem::is_regular_file(path_)) return std::numeric_limits<std::uint64_t>::max();
   if (!doubtful_) doubtful_ = doubtful_parts_of(path_);
   const std::uint64_t begin = position_ - record_.size();
@@ -195,14 +195,14 @@ std::uint64_t RecordingGzipReader::doubtful_from_record_on() {
   return 0;
 }
 
-std::vector<std::uint8_t> RecordingGzipReader::take_record() {
+std::vector<std::uint8_t> PackedReader::take_record() {
   // Not moved out: the next object is likely as large, and so is read without growing step by step.
   std::vector<std::uint8_t> bytes(record_);
   record_.clear();
   return bytes;
 }
 
-double RecordingGzipReader::progress() const {
+double PackedReader::progress() const {
   if (file_size_ == 0) return 1.;
   return std::min(1.,
                   static_cast<double>(ahead_->file_position()) / static_cast<double>(file_size_));
