@@ -104,7 +104,7 @@ StreamSelection select_again(const LogIndex& index, const Config& config,
     throw std::runtime_error(
         index.path + ": it already holds virtual scans labelled '" +
         config.virtual_label(selection.lidar->label) +
-        "'; remove them with rawlog-edit --remove-label, or choose another output_label");
+        "'; remove them with rawlog-decimate --keep-every 0, or choose another output_label");
   return selection;
 }
 

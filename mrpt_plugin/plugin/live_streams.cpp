@@ -27,8 +27,8 @@ Role LiveStreams::role_of(const CObservation& observation) {
     if (label == lidar_label_) return Role::scan;
     if (label == config_.virtual_label(lidar_label_))
       throw std::runtime_error("the sources hold virtual scans labelled '" + label +
-                               "' already; remove them with rawlog-edit --remove-label, or choose "
-                               "another output_label");
+                               "' already; remove them with rawlog-decimate --keep-every 0, or "
+                               "choose another output_label");
   } else if (is_camera(observation)) {
     camera_labels_.insert(label);
     return Role::image;

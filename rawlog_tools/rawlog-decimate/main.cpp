@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the lidar_upsampling authors
 
-// Thins one sensor of a log: keeps every K-th of its observations, and all else byte for byte.
+// Thins one sensor of a log: keeps every K-th of its observations or none, and all else byte for
+// byte.
 #include <mrpt/obs/CObservation.h>
 #include <mrpt/obs/CSensoryFrame.h>
 
@@ -51,8 +52,8 @@ class Decimator {
     labels_.insert(observation.sensorLabel);
     if (observation.sensorLabel != options_.label) return true;
     const std::size_t index = num_seen_++;
-    const bool kept =
-        index >= options_.offset && (index - options_.offset) % options_.keep_every == 0;
+    const bool kept = options_.keep_every > 0 && index >= options_.offset &&
+                      (index - options_.offset) % options_.keep_every == 0;
     num_kept_ += kept ? 1 : 0;
     return kept;
   }
@@ -119,14 +120,15 @@ void decimate(const Options& options) {
 
 int main(int argc, char** argv) {
   lidar_upsampling::Options options;
-  CLI::App app("Keeps every K-th observation of one sensor, and all else untouched.",
+  CLI::App app("Keeps every K-th observation of one sensor or none, and all else untouched.",
                "rawlog-decimate");
   app.add_option("input,-i,--input", options.input, "The log to thin")->required();
   app.add_option("-o,--output", options.output, "The log to write")->required();
   app.add_option("--label", options.label, "The sensor to thin")->required();
-  app.add_option("--keep-every", options.keep_every, "K: of K observations one is kept")
+  app.add_option("--keep-every", options.keep_every,
+                 "K: of K observations one is kept; of 0, none is")
       ->required()
-      ->check(CLI::Range(1, 1000000));
+      ->check(CLI::Range(0, 1000000));
   app.add_option("--offset", options.offset, "Number of the first one that is kept, from 0")
       ->check(CLI::Range(0, 1000000000));
   app.add_flag("--overwrite", options.overwrite, "Replace an existing output");

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the lidar_upsampling authors
+#include "io/small_logs.h"
 #include "pipeline.h"
 
 namespace lidar_upsampling {
@@ -30,7 +31,8 @@ TEST(DensifiedLog, the_real_observations_stay_byte_for_byte) {
   for (std::size_t i = 0; i < in.size(); ++i) EXPECT_TRUE(real[i].bytes == in[i].bytes) << i;
 }
 
-TEST(DensifiedLog, a_log_is_densified_once_and_says_so_the_second_time) {
+TEST(DensifiedLog,
+     a_log_is_densified_once_says_so_the_second_time_and_is_undone_by_rawlog_decimate) {
   const TestFolder folder;
   simulate(folder, "[scenario]\nduration_s = 0.12\n");
   densify(folder);
@@ -38,6 +40,9 @@ TEST(DensifiedLog, a_log_is_densified_once_and_says_so_the_second_time) {
       densify_command(folder / "out.rawlog", folder / "twice.rawlog", "--set lidar_label=LIDAR"));
   EXPECT_EQ(again.status, 1);
   EXPECT_TRUE(contains(again.text, "already holds virtual scans")) << again.text;
+  expect_done(std::string(RAWLOG_DECIMATE) + " --label LIDAR_VIRTUAL --keep-every 0 --input " +
+              folder / "out.rawlog" + " --output " + folder / "back.rawlog");
+  EXPECT_TRUE(uncompressed(folder / "back.rawlog") == uncompressed(folder / "in.rawlog"));
 }
 
 TEST(DensifiedLog, in_sensory_frames_the_virtual_scans_are_beside_their_images) {

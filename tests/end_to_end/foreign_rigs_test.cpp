@@ -153,7 +153,8 @@ TEST_P(DepthCameras, get_the_depth_images_they_would_have_taken) {
   simulate(folder, "[ego]\nspeed_mps = 4\n[vehicle.lead]\nx_m = 9\nspeed_mps = 1\n", kDepthCamera);
   densify(folder, kOwnPoints + std::string("--set carrier=") + GetParam());
   const auto out = observations_of(folder / "out.rawlog");
-  const CObservation3DRangeScan& real = depth_image(with_label(out, "DEPTH").front());
+  const auto reals = with_label(out, "DEPTH");
+  const CObservation3DRangeScan& real = depth_image(reals.front());
   const auto truths = with_label(observations_of(folder / "truth.rawlog"), "DEPTH");
   const auto scans = with_label(out, "DEPTH_VIRTUAL");
   ASSERT_EQ(scans.size(), 8U);

@@ -66,6 +66,17 @@ std::vector<Stamp> stamps_of(const std::vector<RawlogEntry>& entries, const std:
   return stamps;
 }
 
+TEST(RawlogDecimate, keeps_none_of_a_sensor_where_every_0th_is_asked_for) {
+  const TestFolder folder;
+  write_observations(folder / "in.rawlog");
+  const ToolResult result = run(decimate("--input " + folder / "in.rawlog" + " --output " +
+                                         folder / "out.rawlog" + " --label LIDAR --keep-every 0"));
+  ASSERT_EQ(result.status, 0) << result.text;
+  const auto out = read_log(folder / "out.rawlog");
+  EXPECT_EQ(out.size(), 7U);
+  EXPECT_EQ(stamps_of(out, "CAM").size(), 7U);
+}
+
 TEST(RawlogDecimate, keeps_every_kth_and_all_else_byte_for_byte) {
   const TestFolder folder;
   write_observations(folder / "in.rawlog");
@@ -202,7 +213,7 @@ TEST(RawlogDecimate, an_existing_output_is_replaced_only_if_told) {
 
 TEST(RawlogDecimate, wrong_usage_and_version_have_their_status) {
   EXPECT_EQ(run(decimate("")).status, 2);
-  EXPECT_EQ(run(decimate("--input a --output b --label c --keep-every 0")).status, 2);
+  EXPECT_EQ(run(decimate("--input a --output b --label c --keep-every -1")).status, 2);
   EXPECT_EQ(run(decimate("--input a --output b --label c --keep-every 2 --what")).status, 2);
   EXPECT_EQ(run(decimate("--input /nowhere/a --output b --label c --keep-every 2")).status, 1);
   EXPECT_EQ(run(decimate("--help")).status, 0);
