@@ -124,6 +124,19 @@ clouds_table() {
     }'
 }
 
+# From what runs print: how far positions of what was seen to move are true to their covariances.
+uncertainty_table() {
+  local words
+  echo "| | positions | error squared by covariance, per dimension | its median | within 95 % | sigma, m | error, m |"
+  echo "|---|---|---|---|---|---|---|"
+  while read -r -a words; do
+    awk -v title="$(title_of "${words[@]}")" '
+      /^reported uncertainty of positions/ { here = 1 }
+      here && $1 == "moving" { printf "| %s | %s | %s | %s | %s | %s | %s |\n", title, $2, $3, $4, $5, $6, $7; exit }' \
+      "$OUT/$(run_name "${words[@]}").txt"
+  done
+}
+
 # Judging by scans takes eight times as long as by labels, and differs little from seed to seed: of the first one only.
 in_parallel full_run < <(sed 's/^/scans /' "$OUT/real.list"
   drawn | awk -v first="${seeds[0]}" '{ print ($3 == first ? "scans" : "labels"), $0 }')
@@ -136,7 +149,7 @@ part_of_page() {
 }
 
 whole_page() {
-  local line words name builds
+  local builds
   cat "$project/share/results-intro.md"
   builds=$(find "$OUT" -name '*.csv' -not -path "$OUT/logs/*" -exec awk -F, '
     $1 == "run" && $2 == "build" { print $3 } NF == 14 { print $12 }' {} + | sort -u | wc -l)
@@ -145,6 +158,8 @@ whole_page() {
   drawn | figures_of | headline_table
   printf '\n### The same, by the scans of the truth: seed %s\n\n' "${seeds[0]}"
   drawn | awk -v seed="${seeds[0]}" '$3 == seed' | figures_of | clouds_table
+  printf '\n### Reported uncertainty: seed %s\n\n' "${seeds[0]}"
+  drawn | awk -v seed="${seeds[0]}" '$3 == seed' | LC_ALL=C sort | uncertainty_table
   if [ -s "$OUT/real.list" ]; then
     printf '\n## Real drives and scenes, by people'"'"'s labels\n\n'
     figures_of < "$OUT/real.list" | headline_table

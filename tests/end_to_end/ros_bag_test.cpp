@@ -87,7 +87,7 @@ class RosBagToRawlog : public testing::Test {
     expect_done(
         "MALLOC_MMAP_THRESHOLD_=30000000 MALLOC_TRIM_THRESHOLD_=2000000000 rosbag2rawlog "
         "-c " CONFIG_FOLDER "/rosbag2rawlog.yml " +
-        (is_newer() ? "-b" : "-f") + " map -o " + folder_ / "bag.rawlog" + " " +
+        std::string(is_newer() ? "-b" : "-f") + " map -o " + folder_ / "bag.rawlog" + " " +
         folder_ / "street.bag");
     converted_ = observations_of(folder_ / "bag.rawlog");
   }
