@@ -90,7 +90,8 @@ std::string joined(const std::set<std::string>& labels) {
 void decimate(const Options& options) {
   const FileUse output{"--output", options.output};
   check_files({{"--input", options.input}}, {output});
-  check_room(output, options.input, false, 1. / static_cast<double>(options.keep_every));
+  const double share = options.keep_every > 0 ? 1. / static_cast<double>(options.keep_every) : 0;
+  check_room(output, options.input, false, share);
   RawlogReader reader({options.input, options.accept_truncated});
   RawlogWriter writer(options.output, options.overwrite);
   Decimator decimator(options);
