@@ -51,7 +51,7 @@ TrackState expected_on_picture(const ObjectTrack& track, Stamp instant, const Mo
   return track.ahead ? track.expected_at(instant, noise) : predicted(track.latest, instant, noise);
 }
 
-StepExpected in_lidar(const PlanarStep& step, const Eigen::Matrix3d& R_rest_lidar_k) {
+PlanarStep in_lidar(const PlanarStep& step, const Eigen::Matrix3d& R_rest_lidar_k) {
   Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
   R.topLeftCorner<2, 2>() = level_axes(R_rest_lidar_k).transpose();
   return {R * step.mean, R * step.covariance * R.transpose()};

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <map>
 #include <optional>
-#include <utility>
 
 #include "lidar_upsampling/vision/projection.h"
 
@@ -100,29 +99,25 @@ Start part_of(const Start& start, const std::vector<std::size_t>& asked) {
 Start searched(const CameraView& view, const Picture& picture, const Pose& T_camera_t_lidar_k,
                const std::vector<Ways>& ways, const std::vector<std::size_t>& lost,
                const KltOptions& options) {
-  std::map<int, std::vector<std::size_t>> objects;
-  for (const std::size_t i : lost)
-    if (view.points.owner[i] >= 0) objects[view.points.owner[i]].push_back(i);
-  const std::vector<std::pair<int, std::vector<std::size_t>>> list(objects.begin(), objects.end());
-  std::vector<std::optional<Pose>> motions(list.size());
-  tbb::parallel_for(std::size_t{0}, list.size(), [&](std::size_t k) {
-    LostSurface surface{
-        view.anchor->pyramid, picture.pyramid, view.camera.model, T_camera_t_lidar_k, {}, {}};
-    for (const std::size_t i : list[k].second) {
-      surface.points.push_back(view.points.point[i]);
-      surface.from_px.push_back(view.points.anchor_px[i]);
-    }
-    motions[k] = search_surface(surface, ways[list[k].first].step, options);
+  const LostSurface nothing{
+      view.anchor->pyramid, picture.pyramid, view.camera.model, T_camera_t_lidar_k, {}, {}};
+  std::vector<LostSurface> surfaces(ways.size(), nothing);
+  for (const std::size_t i : lost) {
+    if (view.points.owner[i] < 0) continue;
+    LostSurface& surface = surfaces[view.points.owner[i]];
+    surface.points.push_back(view.points.point[i]);
+    surface.from_px.push_back(view.points.anchor_px[i]);
+  }
+  std::vector<std::optional<Pose>> motions(ways.size());
+  tbb::parallel_for(std::size_t{0}, ways.size(), [&](std::size_t k) {
+    motions[k] = search_surface(surfaces[k], ways[k].step, options);
   });
-  std::map<int, Pose> found;
-  for (std::size_t k = 0; k < list.size(); ++k)
-    if (motions[k]) found[list[k].first] = *motions[k];
   Start start;
   for (const std::size_t i : lost) {
-    const auto T_mov = found.find(view.points.owner[i]);
-    if (T_mov == found.end()) continue;
+    const int owner = view.points.owner[i];
+    if (owner < 0 || !motions[owner]) continue;
     start.which.push_back(i);
-    start.guesses.push_back(pixel_of(view, i, T_camera_t_lidar_k, T_mov->second));
+    start.guesses.push_back(pixel_of(view, i, T_camera_t_lidar_k, *motions[owner]));
   }
   return start;
 }

@@ -5,14 +5,14 @@
 #include <vector>
 
 #include "lidar_upsampling/camera_view.h"
-#include "lidar_upsampling/vision/surface_search.h"
+#include "lidar_upsampling/tracks/surface_search.h"
 
 namespace lidar_upsampling {
 
 /// The motions over ground that an object may have made.
 struct Ways {
   std::vector<Pose> motions;  ///< the likeliest first; none: it is not followed
-  StepExpected step;          ///< of the likeliest, lidar frame at k: where else it may be
+  PlanarStep step;            ///< of the likeliest, lidar frame at k: where else it may be
 };
 
 /// @brief Follows all points to the next picture, those of an object from each motion that it may

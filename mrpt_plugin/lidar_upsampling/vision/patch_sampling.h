@@ -20,7 +20,7 @@ constexpr int kPatchSide_px = 2 * kPatchHalf_px + 1;
 
 /// A square of the picture whose pixels all lie alike between the picture's own.
 /// @param out rows of `width` values.
-template <int width>
+template <int width, typename Pixel = float>
 void cut_out(const cv::Mat& image, float x, float y, float* out) {
   constexpr int kWidth = (width + 3) / 4 * 4;  // vectors of four
   const int left = static_cast<int>(x), top = static_cast<int>(y);
@@ -30,7 +30,7 @@ void cut_out(const cv::Mat& image, float x, float y, float* out) {
   std::array<float, kWidth> mixed;
   for (int v = 0; v <= width; ++v) {
     std::array<float, kWidth>&lower = rows[v % 2], &upper = rows[1 - v % 2];
-    std::copy_n(image.ptr<float>(top + v) + left, width + 1, pixels.begin());
+    std::copy_n(image.ptr<Pixel>(top + v) + left, width + 1, pixels.begin());
     for (int u = 0; u < kWidth; ++u) lower[u] = pixels[u] + fx * (pixels[u + 1] - pixels[u]);
     if (v == 0) continue;
     for (int u = 0; u < kWidth; ++u) mixed[u] = upper[u] + fy * (lower[u] - upper[u]);

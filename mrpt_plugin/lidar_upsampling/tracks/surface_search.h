@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "lidar_upsampling/tracks/track_state.h"
 #include "lidar_upsampling/types.h"
 #include "lidar_upsampling/vision/klt.h"
 
@@ -21,20 +22,14 @@ struct LostSurface {
   std::vector<cv::Point2f> from_px;     ///< of each, on the first picture
 };
 
-/// How it may have gone in the plane of the source frame's x and y: a step (m), and a turn about
-/// its middle (rad).
-struct StepExpected {
-  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
-  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
-};
-
 /// @brief The motion by which all points together look most like the first picture: tried on a grid
 /// over what is expected, on small pictures first. A single point's neighbourhood looks alike at
 /// many places, a whole surface hardly.
+/// @param expected of their middle and heading, source frame.
 /// @return T_mov, source frame; none where what is expected is narrower than the patches that are
 /// searched for one by one.
 [[nodiscard]] std::optional<Pose> search_surface(const LostSurface& lost,
-                                                 const StepExpected& expected,
+                                                 const PlanarStep& expected,
                                                  const KltOptions& options);
 
 }  // namespace lidar_upsampling

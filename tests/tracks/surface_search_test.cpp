@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the lidar_upsampling authors
-#include "lidar_upsampling/vision/surface_search.h"
+#include "lidar_upsampling/tracks/surface_search.h"
 
 #include <gtest/gtest.h>
 
@@ -13,7 +13,7 @@ namespace lidar_upsampling {
 namespace {
 
 /// A board of 2 x 1.2 m that stands across the view, 10 m ahead, before a wall.
-class Board : public testing::Test {
+class Board : public ::testing::Test {
  protected:
   Board() {
     camera_.width = 480;
@@ -56,7 +56,7 @@ class Board : public testing::Test {
         lost.from_px.push_back(pixel_of(Pose::Identity(), lost.points.back()));
       }
     }
-    StepExpected expected;
+    PlanarStep expected;
     expected.covariance.diagonal() << sigma_m * sigma_m, sigma_m * sigma_m, 0.01;
     return search_surface(lost, expected, {});
   }

@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the lidar_upsampling authors
-#include "lidar_upsampling/vision/surface_search.h"
+#include "lidar_upsampling/tracks/surface_search.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
+#include "lidar_upsampling/tracks/motion_estimate.h"
+#include "lidar_upsampling/vision/patch_sampling.h"
 #include "lidar_upsampling/vision/projection.h"
 
 namespace lidar_upsampling {
@@ -25,19 +28,10 @@ using SmallPatch = std::array<float, kSearchSide * kSearchSide>;
 /// A patch less its mean; false where it leaves the picture.
 bool cut_patch(const cv::Mat& image, const cv::Point2f& at, SmallPatch& patch) {
   const float x = at.x - kSearchHalf, y = at.y - kSearchHalf;
-  if (!(x >= 0 && y >= 0)) return false;
-  const int left = static_cast<int>(x), top = static_cast<int>(y);
-  if (left + kSearchSide >= image.cols || top + kSearchSide >= image.rows) return false;
-  const float fx = x - static_cast<float>(left), fy = y - static_cast<float>(top);
-  float sum = 0;
-  for (int v = 0; v < kSearchSide; ++v) {
-    const std::uint8_t *upper = image.ptr(top + v) + left, *lower = image.ptr(top + v + 1) + left;
-    for (int u = 0; u < kSearchSide; ++u) {
-      const float above = upper[u] + fx * static_cast<float>(upper[u + 1] - upper[u]);
-      const float below = lower[u] + fx * static_cast<float>(lower[u + 1] - lower[u]);
-      sum += patch[v * kSearchSide + u] = above + fy * (below - above);
-    }
-  }
+  if (!inside(image, x, y) || !inside(image, x + kSearchSide - 1, y + kSearchSide - 1))
+    return false;
+  cut_out<kSearchSide, std::uint8_t>(image, x, y, patch.data());
+  const float sum = std::accumulate(patch.begin(), patch.end(), 0.F);
   for (float& gray : patch) gray -= sum / (kSearchSide * kSearchSide);
   return true;
 }
@@ -95,8 +89,9 @@ Eigen::Vector3d middle_of(const std::vector<Eigen::Vector3d>& points) {
 }
 
 Pose motion_of(const Eigen::Vector3d& step, const Eigen::Vector3d& middle) {
-  return Eigen::Translation3d(middle + Eigen::Vector3d(step.x(), step.y(), 0)) *
-         Eigen::AngleAxisd(step.z(), Eigen::Vector3d::UnitZ()) * Eigen::Translation3d(-middle);
+  Twist motion = Twist::Zero();
+  motion.segment<3>(2) << step.z(), step.x(), step.y();
+  return motion_pose(motion, middle);
 }
 
 /// Steps that are seen as of one pixel: aside, away from the camera, and a turn, in columns.
@@ -126,7 +121,7 @@ struct Grid {
 /// The likest place of a grid. @param astray from what is expected.
 Eigen::Vector3d likest(const SurfaceOnLevel& surface, const Grid& grid,
                        const Eigen::Vector3d& astray, const Eigen::Vector3d& middle,
-                       const StepExpected& expected, const Eigen::Matrix3d& information) {
+                       const PlanarStep& expected, const Eigen::Matrix3d& information) {
   Eigen::Vector3d best = astray;
   double least = std::numeric_limits<double>::infinity();
   for (int i = -grid.count[0]; i <= grid.count[0]; ++i) {
@@ -146,7 +141,7 @@ Eigen::Vector3d likest(const SurfaceOnLevel& surface, const Grid& grid,
 
 }  // namespace
 
-std::optional<Pose> search_surface(const LostSurface& lost, const StepExpected& expected,
+std::optional<Pose> search_surface(const LostSurface& lost, const PlanarStep& expected,
                                    const KltOptions& options) {
   if (lost.points.empty()) return {};
   const Eigen::Vector3d middle = middle_of(lost.points);
@@ -163,16 +158,17 @@ std::optional<Pose> search_surface(const LostSurface& lost, const StepExpected& 
     ++level;
   const Eigen::Matrix3d information = expected.covariance.inverse();
   const auto step_px = [](int at) { return kStep_px * (1 << at); };
-  Grid grid{pixels * step_px(level),
-            {static_cast<int>(aside_px / step_px(level)),
-             static_cast<int>(reach_px(1) / step_px(level)), 0}};
   Eigen::Vector3d astray = Eigen::Vector3d::Zero();
-  astray = likest(SurfaceOnLevel(lost, level), grid, astray, middle, expected, information);
-  for (; level >= 0; --level) {
-    grid = {pixels * step_px(level), {1, 1, 1}};
-    const SurfaceOnLevel surface(lost, level);
-    for (int round = 0; round < kRounds; ++round)
-      astray = likest(surface, grid, astray, middle, expected, information);
+  for (int now = level; now >= 0; --now) {
+    const SurfaceOnLevel surface(lost, now);
+    const auto look = [&](const std::array<int, 3>& count) {
+      astray =
+          likest(surface, {pixels * step_px(now), count}, astray, middle, expected, information);
+    };
+    if (now == level)
+      look({static_cast<int>(aside_px / step_px(now)), static_cast<int>(reach_px(1) / step_px(now)),
+            0});
+    for (int round = 0; round < kRounds; ++round) look({1, 1, 1});
   }
   return motion_of(expected.mean + astray, middle);
 }
