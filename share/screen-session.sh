@@ -15,7 +15,14 @@ width=1280 height=800 row_height=17 chosen=c8c800
 
 fail() { echo "screen-session: $*" >&2; exit 1; }
 
-shot() { xwd -root -silent -out "$1"; }
+# Again if a window closes while it is looked at, as a program's welcome does.
+shot() {
+  for _ in $(seq 40); do
+    xwd -root -silent -out "$1" 2> "$folder/xwd.log" && return
+    sleep 0.1
+  done
+  fail "no picture of the screen: $(cat "$folder/xwd.log")"
+}
 
 use_display() { DISPLAY=:$(cat "$folder/display"); export DISPLAY; }
 
@@ -61,17 +68,19 @@ start() {
   fill_screen "$(basename "$1")"
 }
 
-# The program's largest window; without a window manager it has to be told more than once.
+# The program's largest window; without a window manager it has to be told more than once. One that closes between
+# two commands is left out.
 fill_screen() {
   local area=0 best window WIDTH HEIGHT
   for _ in $(seq 300); do
     area=0
     for window in $(xdotool search --onlyvisible --class "$1" 2>/dev/null || true); do
+      WIDTH=0 HEIGHT=0
       eval "$(xdotool getwindowgeometry --shell "$window" 2>/dev/null | grep -E '^(WIDTH|HEIGHT)=')"
       [ $((WIDTH * HEIGHT)) -gt $area ] && area=$((WIDTH * HEIGHT)) best=$window
     done
     [ $area -ge $((width * height)) ] && break
-    [ $area -gt 40000 ] && xdotool windowmove "$best" 0 0 windowsize "$best" $width $height
+    [ $area -gt 40000 ] && xdotool windowmove "$best" 0 0 windowsize "$best" $width $height 2> "$folder/xdotool.log" || true
     sleep 0.2
   done
   [ $area -ge $((width * height)) ] || fail "no window of $1 within a minute: $(cat "$folder/program.log")"

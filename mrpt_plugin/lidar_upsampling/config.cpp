@@ -137,7 +137,9 @@ void load(const SettingSection& section, const CConfigFileBase& source, const st
 // of the question; the points are moved, no more.
 void leave_the_picture_alone(Config& config) {
   config.resample = "none";
+  config.klt.align_first = false;
   config.point_tracks.own_surface = false;
+  config.point_tracks.max_points_per_object = 150;
   config.ego_motion.fuse = false;
   config.object_motion.world_tracks = false;
   config.object_motion.picture.min_points = 20;

@@ -179,6 +179,9 @@ void list_vision(Config& c, SettingList& v) {
   v.number("min_eigenvalue", k.min_eigenvalue, kNotNegative, "of the patch's gradient matrix");
   v.number("max_residual", k.max_residual, kPositive,
            "mean difference of the patches, gray levels");
+  v.flag("align_first", k.align_first,
+         "what lies where it is expected is brought into place there; false: all is searched for, "
+         "as in the paper");
 }
 
 void list_motion(Config& c, SettingList& v) {

@@ -138,10 +138,12 @@ void follow_ways(CameraView& view, const Picture& picture, const Pose& T_camera_
     keep_better(points, start.which, follow_points(patches, options), options);
   };
   forget(points, starts.front().which);
-  for (const Start& start : starts) follow(start, align_points);
-  std::vector<std::size_t> lost = points_elsewhere(points.owner, points.found);
-  follow(searched(view, picture, T_camera_t_lidar_k, ways, lost, options), align_points);
-  lost = points_elsewhere(points.owner, points.found);
+  if (options.align_first) {
+    for (const Start& start : starts) follow(start, align_points);
+    const std::vector<std::size_t> lost = points_elsewhere(points.owner, points.found);
+    follow(searched(view, picture, T_camera_t_lidar_k, ways, lost, options), align_points);
+  }
+  const std::vector<std::size_t> lost = points_elsewhere(points.owner, points.found);
   forget(points, lost);
   for (const Start& start : starts) follow(part_of(start, lost), search_points);
 }

@@ -138,7 +138,7 @@ TEST(Config, a_live_sensors_section_may_hold_the_drivers_own_keys) {
 TEST(Config, the_papers_preset_moves_every_object_by_its_own_pose) {
   const Config preset = loaded("[lidar_upsampling]\npreset = paper\n");
   EXPECT_EQ(preset.resample, "none");
-  EXPECT_FALSE(preset.point_tracks.own_surface);
+  EXPECT_FALSE(preset.point_tracks.own_surface || preset.klt.align_first);
   EXPECT_FALSE(preset.ego_motion.fuse);
   EXPECT_FALSE(preset.object_motion.world_tracks || preset.object_tracks.scan_factor);
   const TrackOptions ours = loaded("").object_tracks;

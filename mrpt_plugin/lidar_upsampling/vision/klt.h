@@ -19,6 +19,7 @@ struct KltOptions {
   double max_forward_backward_px = 0.5;  ///< distance from the point after tracking there and back
   double min_eigenvalue = 5e-4;  ///< of the gradient matrix, in cv::calcOpticalFlowPyrLK's units
   double max_residual = 15;      ///< mean absolute difference of the patches, gray levels
+  bool align_first = true;  ///< what is where it is expected is not searched for; off: the paper
 };
 
 /// @throw std::invalid_argument
