@@ -71,6 +71,16 @@ bool is_explained(const std::vector<Observation>& seen, const Pose& T_camera_lid
   });
 }
 
+// From what a picture shows to have changed since the anchor to the motion since the object's
+// sight, as fast.
+void since_sight(MotionFit& fit, const ImageView& view, double dt) {
+  if (view.share <= 0 || dt <= 0) return;
+  const double stretch = dt / view.share;
+  fit.mean.tail<3>() = stretch * (fit.mean.tail<3>() - view.offset);
+  fit.covariance.bottomRows<3>() *= stretch;
+  fit.covariance.rightCols<3>() *= stretch;
+}
+
 }  // namespace
 
 Pose T_camera_lidar_of(const Camera& camera, const Pose& T_vehicle_lidar) {
@@ -145,7 +155,9 @@ void note_sights(std::vector<ObjectOnPicture>& sights, const CameraView& view,
       return;
     sight.alone =
         picture_motion(pairs, view.camera.model, T_camera_lidar_k, object.centroid, options);
-    if (sight.alone) sight.starts.push_back(sight.alone->mean);
+    if (!sight.alone) return;
+    since_sight(*sight.alone, sight.view, dt - object.time_s);
+    sight.starts.push_back(sight.alone->mean);
   });
 }
 
