@@ -89,6 +89,17 @@ TEST_F(FreeRunningCamera, withheld_scans_tell_of_every_row_what_the_exact_truth_
   }
 }
 
+// No picture has the scan's stamp, so that an object has moved already on the first one.
+TEST_F(FreeRunningCamera, what_moved_before_the_first_picture_is_told_by_the_published_method_too) {
+  make_log("[lidar]\nrings = 64\ncolumns = 900\n");
+  const Json by_truth =
+      evaluate(folder_, "truth.rawlog", "--truth-objects " + folder_ / "in_objects.csv");
+  const Means standing = means_of("ego", true, by_truth, by_truth);
+  const Means by_picture = means_of("paper", true, by_truth, by_truth);
+  ASSERT_EQ(by_picture.count, standing.count);
+  EXPECT_LT(by_picture.by_truth, 0.5 * standing.by_truth);
+}
+
 TEST_F(FreeRunningCamera, what_lies_too_far_from_any_withheld_scan_is_left_out_and_counted) {
   make_log();
   const Json all = evaluate(folder_, "in.rawlog", "--no-paper");
