@@ -13,6 +13,8 @@
 namespace lidar_upsampling {
 namespace {
 
+constexpr double kLeast_s = 0.005;  // an image before the object's own sight is taken for this
+
 // An object on a picture.
 struct Appearance {
   const Camera* camera = nullptr;  // null: on none
@@ -107,22 +109,32 @@ MotionAnswer answer_for(const ObjectTrack& track, const AllSights& sights,
   return answer;
 }
 
+// Over ground, since the key scan, m/s, frame at rest; zero where there is no time between.
+Eigen::Vector2d ego_velocity(const PreparedScan& key, const ImageResult& newest) {
+  const double dt = seconds_between(key.scan.stamp, newest.instant);
+  if (dt < kLeast_s) return Eigen::Vector2d::Zero();
+  const Eigen::Vector3d step =
+      key.T_rest_lidar.linear() * newest.ego.T_to_from.inverse().translation();
+  return step.head<2>() / dt;
+}
+
 }  // namespace
 
 std::vector<ObjectMotion> estimate_motions(const std::vector<ImageResult>& group,
                                            const ImageResult& newest, const KeyObjects& objects,
                                            TrackStore& store, const Config& config) {
-  constexpr double kLeast_s = 0.005;  // an image before the object's own sight is taken for this
   const PreparedScan& key = objects.key;
+  const Eigen::Vector2d velocity = ego_velocity(key, newest);
   std::vector<ObjectMotion> motions(objects.track_of.size());
   tbb::parallel_for(std::size_t{0}, motions.size(), [&](std::size_t i) {
     const ScanObject& object = objects.object(i);
     ObjectTrack& track = store.tracks[objects.track_of[i]];
     const double dt = std::max(kLeast_s, seconds_between(track.stamp, newest.instant));
     const AllSights sights = sights_of(i, group, dt);
-    const MotionQuestion question{
-        shifted(track.stamp, dt),  newest.ego.T_to_from,   newest.ego.covariance, object.centroid,
-        key.T_rest_lidar.linear(), newest.camera.model.fx, sights.num_followed};
+    const MotionQuestion question{shifted(track.stamp, dt), newest.ego.T_to_from,
+                                  newest.ego.covariance,    velocity,
+                                  object.centroid,          key.T_rest_lidar.linear(),
+                                  newest.camera.model.fx,   sights.num_followed};
     const MotionAnswer answer = answer_for(track, sights, question, config);
     if (!track.settled) note_answer(track, answer);
     ObjectMotion& motion = motions[i];

@@ -62,6 +62,7 @@ TEST(Sweep, start_direction_and_reference_are_settings) {
 
 TEST(Sweep, nothing_is_known_without_a_period_nor_asked_with_none) {
   EXPECT_TRUE(point_times(scan_of({0, 90}), by_azimuth(), 0).empty());
+  EXPECT_TRUE(point_times(scan_of({0, 90}), by_azimuth(), 3600).empty());
   EXPECT_TRUE(point_times(scan_of({0, 90}), SweepOptions(), kPeriod_s).empty());
 }
 

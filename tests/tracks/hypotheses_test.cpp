@@ -71,6 +71,43 @@ TEST(Hypotheses, a_new_object_that_the_picture_shows_to_move_moves) {
   EXPECT_NEAR(answer.state.velocity().y(), 5, 0.3);
 }
 
+ObjectTrack track_that_may_go_anywhere() {
+  ObjectTrack track = new_track();
+  track.beginnings = {{track.state, 1}};
+  return track;
+}
+
+// A picture taken soon tells little of how far something straight ahead has gone.
+TEST(Hypotheses, a_new_object_goes_as_fast_as_the_traffic_if_the_picture_does_not_say_otherwise) {
+  Twist truth = Twist::Zero();
+  truth[3] = 0.6;
+  double alone_m = 0, in_traffic_m = 0;
+  for (unsigned seed = 0; seed < 20; ++seed) {
+    MotionQuestion question = question_after(0.03);
+    const auto error = [&] {
+      return std::abs(estimate_motion(track_that_may_go_anywhere(), picture_of(truth, seed),
+                                      question, {truth}, {})
+                          .moving.mean[3] -
+                      truth[3]);
+    };
+    alone_m += error();
+    question.ego_velocity = {20, 0};
+    in_traffic_m += error();
+  }
+  EXPECT_LT(in_traffic_m, 0.7 * alone_m);
+}
+
+TEST(Hypotheses, traffic_is_no_reason_to_see_a_parked_car_move) {
+  for (unsigned seed = 0; seed < 50; ++seed)
+    for (const double speed : {2., 10., 20.}) {
+      MotionQuestion question = question_after(0.1);
+      question.ego_velocity = {speed, 0};
+      EXPECT_FALSE(estimate_motion(track_that_may_go_anywhere(), picture_of(Twist::Zero(), seed),
+                                   question, {}, {})
+                       .moves);
+    }
+}
+
 TEST(Hypotheses, a_parked_car_stays_parked_on_every_noisy_picture) {
   for (unsigned seed = 0; seed < 50; ++seed)
     EXPECT_FALSE(

@@ -82,7 +82,7 @@ TEST(Pieces, that_lie_elsewhere_stay_objects_of_their_own) {
 }
 
 TEST(Pieces, may_be_something_else) {
-  const std::vector<Course> courses = courses_before_images(second_piece_of_bus(10));
+  const std::vector<Course> courses = second_piece_of_bus(10).beginnings;
   ASSERT_EQ(courses.size(), 3U);
   double sum = 0;
   for (const Course& course : courses) sum += course.probability;

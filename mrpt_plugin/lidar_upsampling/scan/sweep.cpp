@@ -55,7 +55,9 @@ std::vector<float> point_times(const LidarScan& scan, const SweepOptions& option
                                double period_s) {
   if (options.scan_time == ScanTime::none) return {};
   if (options.scan_time == ScanTime::azimuth)
-    return period_s > 0 ? times_by_azimuth(scan, options, period_s) : std::vector<float>{};
+    return period_s > 0 && is_near(static_cast<float>(period_s))
+               ? times_by_azimuth(scan, options, period_s)
+               : std::vector<float>{};
   if (scan.time_s.size() != scan.size())
     throw std::runtime_error("scan_time = points, but the scans of '" + scan.label +
                              "' have no times of their points: of a spinning scanner choose "

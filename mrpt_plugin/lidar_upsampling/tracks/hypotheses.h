@@ -13,9 +13,10 @@ namespace lidar_upsampling {
 /// What is asked, and what is known for it.
 struct MotionQuestion {
   Stamp instant;
-  Pose T_lidar_t_lidar_k = Pose::Identity();           ///< ego-motion
-  Matrix6d ego_covariance = Matrix6d::Zero();          ///< of a left increment, lidar frame at t
-  Eigen::Vector3d centroid = Eigen::Vector3d::Zero();  ///< lidar frame at k
+  Pose T_lidar_t_lidar_k = Pose::Identity();   ///< ego-motion
+  Matrix6d ego_covariance = Matrix6d::Zero();  ///< of a left increment, lidar frame at t
+  Eigen::Vector2d ego_velocity = Eigen::Vector2d::Zero();  ///< m/s over ground, frame at rest
+  Eigen::Vector3d centroid = Eigen::Vector3d::Zero();      ///< lidar frame at k
   Eigen::Matrix3d R_rest_lidar_k = Eigen::Matrix3d::Identity();
   double focal_px = 700;
   int num_followed = 0;  ///< points of the object, found again or not

@@ -171,9 +171,25 @@ std::vector<Course> courses_of(const ObjectTrack& track, const TrackOptions& opt
   return courses;
 }
 
-std::vector<Course> courses_before_images(const ObjectTrack& track) {
+std::vector<Course> courses_before_images(const ObjectTrack& track,
+                                          const Eigen::Vector2d& ego_velocity,
+                                          const MotionNoise& noise) {
   if (track.beginnings.empty()) return {{track.state, 1}};
-  return track.beginnings;
+  constexpr double kSlow_m_s = 4;  // of us: then others' speed may as well be another
+  constexpr double kAny_m_s = 2, kShareOfSpeed = 0.2;  // how much their speed differs from ours
+  const double speed = ego_velocity.norm();
+  const double share = speed * speed / (speed * speed + kSlow_m_s * kSlow_m_s) / 3;
+  std::vector<Course> courses = track.beginnings;
+  for (Course& course : courses) course.probability *= 1 - share;
+  MotionNoise as_fast = noise;
+  as_fast.unknown_speed_sigma = kAny_m_s + kShareOfSpeed * speed;
+  TrackState traffic = along_road(new_track_state(track.stamp, noise),
+                                  std::atan2(ego_velocity.y(), ego_velocity.x()), as_fast);
+  for (const double way : {1., -1.}) {
+    traffic.mean.segment<2>(3) = way * ego_velocity;
+    courses.push_back({traffic, share / 2});
+  }
+  return courses;
 }
 
 TrackState ObjectTrack::expected_at(Stamp instant, const MotionNoise& noise) const {

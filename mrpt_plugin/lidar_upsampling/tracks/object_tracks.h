@@ -112,8 +112,12 @@ struct TrackedScan {
 /// too); as long as nothing has told: its beginnings. The probabilities sum to one.
 [[nodiscard]] std::vector<Course> courses_of(const ObjectTrack& track, const TrackOptions& options);
 
-/// @brief Of what images have not told yet, all true.
-[[nodiscard]] std::vector<Course> courses_before_images(const ObjectTrack& track);
+/// @brief Of what images have not told yet, all true: a new object's beginnings, among which it
+/// goes with the traffic, or against it.
+/// @param ego_velocity over ground, m/s, frame at rest.
+[[nodiscard]] std::vector<Course> courses_before_images(const ObjectTrack& track,
+                                                        const Eigen::Vector2d& ego_velocity,
+                                                        const MotionNoise& noise);
 
 struct TrackStore {
   std::vector<ObjectTrack> tracks;
