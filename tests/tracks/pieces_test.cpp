@@ -76,6 +76,17 @@ TEST(Pieces, that_lie_where_a_mover_was_predicted_are_that_mover) {
   EXPECT_NEAR(broken.objects[0].length, 5.6, 0.1);
 }
 
+TEST(Pieces, that_were_taken_for_something_parked_are_the_mover_in_whose_place_they_lie) {
+  TrackStore store;
+  for (int i = 0; i < 4; ++i) BusScan(0.1 * i, {{20. + i, 6.}, {29.1, 1.}}).take_up(store);
+  ASSERT_EQ(store.tracks.size(), 2U);
+  BusScan broken(0.4, {{24, 4.}, {28.8, 1.2}});
+  const std::vector<int> track_of = broken.take_up(store);
+  ASSERT_EQ(broken.objects.size(), 1U);
+  EXPECT_EQ(broken.objects[0].points.size(), broken.scan.points.size());
+  EXPECT_EQ(store.tracks[track_of[0]].id, 0);
+}
+
 TEST(Pieces, that_lie_elsewhere_stay_objects_of_their_own) {
   EXPECT_EQ(broken_bus(10, 7).objects.size(), 2U);
   EXPECT_EQ(broken_bus(0, 4.6).objects.size(), 2U) << "beside something parked";

@@ -9,8 +9,8 @@
 /// Objects that a scan shows in pieces: buses, trucks, half-hidden cars.
 namespace lidar_upsampling {
 
-/// @brief Objects of no track join the one of a seen track that moves, if they lie where its points
-/// are predicted.
+/// @brief Objects of no track, or of one that seemed parked, join the one of a seen track that
+/// moves, if they lie where its points are predicted.
 /// @param objects in and out.
 /// @param track_of of each object, -1: none; in and out.
 void join_pieces(const TrackStore& store, const TrackedScan& scan, const TrackOptions& options,
