@@ -27,6 +27,9 @@ std::vector<float> times_by_azimuth(const LidarScan& scan, const SweepOptions& o
   return times;
 }
 
+// A longer time between two scans, of which a turn's is taken, is a gap of the log.
+constexpr double kLongestTurn_s = 10;
+
 bool is_near(float time_s) {
   constexpr float kFarthest_s = 1;
   return std::abs(time_s) <= kFarthest_s;  // not if it is not finite
@@ -55,7 +58,8 @@ std::vector<float> point_times(const LidarScan& scan, const SweepOptions& option
                                double period_s) {
   if (options.scan_time == ScanTime::none) return {};
   if (options.scan_time == ScanTime::azimuth)
-    return period_s > 0 ? times_by_azimuth(scan, options, period_s) : std::vector<float>{};
+    return period_s > 0 && period_s <= kLongestTurn_s ? times_by_azimuth(scan, options, period_s)
+                                                      : std::vector<float>{};
   if (scan.time_s.size() != scan.size())
     throw std::runtime_error("scan_time = points, but the scans of '" + scan.label +
                              "' have no times of their points: of a spinning scanner choose "

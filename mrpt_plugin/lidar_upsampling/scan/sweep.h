@@ -32,7 +32,7 @@ struct SweepOptions {
 std::size_t drop_points_without_time(LidarScan& scan, const SweepOptions& options);
 
 /// @brief When each point was measured, in seconds from the scan's stamp.
-/// @param period_s of one turn, for `azimuth`; 0: not known yet, so nothing is.
+/// @param period_s of one turn, for `azimuth`; 0, or more than 10: not known, so nothing is.
 /// @return none for ScanTime::none, else one per point.
 /// @throw std::runtime_error `points`, but the scan has no times, or one further than a second from
 /// its stamp.
