@@ -11,6 +11,7 @@
 #include <exception>
 #include <functional>
 #include <iostream>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -53,6 +54,7 @@ inline int run_tool(CLI::App& app, int argc, char** argv, const std::function<vo
   remove_temporaries_on_signals();
   try {
     work();
+    if (!std::cout.flush()) throw std::runtime_error("cannot write to the standard output");
     return kDone;
   } catch (const std::exception& error) {
     std::cerr << app.get_name() << ": " << one_line(error) << "\n";

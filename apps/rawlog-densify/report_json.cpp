@@ -7,6 +7,7 @@
 #include <ostream>
 #include <utility>
 
+#include "common/indented_json.h"
 #include "report.h"
 
 namespace lidar_upsampling {
@@ -121,17 +122,6 @@ void for_each_row(const DensifyReport& report, const std::string& list,
         if (row.object.camera_label.empty() == (list == kOutOfView)) use(row_json(row));
       },
       {});
-}
-
-// As a value that stands so many levels deep in another.
-std::string indented(const nlohmann::json& json, int depth) {
-  const std::string text = json.dump(1, ' ', false, nlohmann::json::error_handler_t::replace);
-  std::string result;
-  for (const char c : text) {
-    result += c;
-    if (c == '\n') result.append(static_cast<std::size_t>(depth), ' ');
-  }
-  return result;
 }
 
 }  // namespace

@@ -247,10 +247,12 @@ LogResult evaluate_log(const EvaluationJob& job, const std::function<void(double
   mrpt::rtti::registerAllPendingClasses();  // not by two threads at a time
   tbb::parallel_invoke(
       [&] {
-        input = index_log({job.input, job.accept_truncated});
+        const LogFile log{job.input, job.accept_truncated};
+        input = job.paper_row ? index_log(log) : index_streams(log);
       },
       [&] {
-        if (!job.reference.empty()) reference = index_log({job.reference, job.accept_truncated});
+        if (!job.reference.empty())
+          reference = index_streams({job.reference, job.accept_truncated});
       });
   take_poses_from_file(job.paper.config, job.paper.rig, input);
   LogResult result;

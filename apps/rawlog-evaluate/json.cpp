@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the lidar_upsampling authors
 #include <nlohmann/json.hpp>
+#include <utility>
 
+#include "common/indented_json.h"
 #include "report.h"
 
 namespace lidar_upsampling {
@@ -138,9 +140,8 @@ Json json_of(const LabelScores& scores, int num_unlabelled) {
   return json;
 }
 
-}  // namespace
-
-Json to_json(const LogResult& result, const Figures& figures) {
+// Without the scans.
+Json head_json(const LogResult& result, const Figures& figures) {
   Json json{{"label", result.label},
             {"virtual_label", result.virtual_label},
             {"num_virtual", result.num_virtual},
@@ -157,9 +158,20 @@ Json to_json(const LogResult& result, const Figures& figures) {
     for (const Row row : kRows)
       if (rows[row].count > 0) json["depth_error_percent"][id][name_of(row)] = json_of(rows[row]);
   json["objects_left_out"] = figures.left_out;
-  json["scans"] = Json::array();
-  for (const ScanResult& scan : result.scans) json["scans"].push_back(json_of(scan));
   return json;
+}
+
+}  // namespace
+
+void write_json(const LogResult& result, const Figures& figures,
+                const std::function<void(const std::string& text)>& write) {
+  std::string head = indented(head_json(result, figures), 0);
+  head.resize(head.size() - 2);  // its end
+  write(head + ",\n \"scans\": ");
+  const char* before = "[\n  ";
+  for (const ScanResult& scan : result.scans)
+    write(std::exchange(before, ",\n  ") + indented(json_of(scan), 2));
+  write(std::string(result.scans.empty() ? "[]" : "\n ]") + "\n}\n");
 }
 
 }  // namespace lidar_upsampling

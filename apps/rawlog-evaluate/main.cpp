@@ -116,8 +116,14 @@ class Outputs {
   }
 
   void write(const std::string& path, const std::string& text) {
+    files_.at(path).write(text);
+    files_.at(path).commit();
+  }
+
+  void write_json(const std::string& path, const Comparison& comparison) {
     OutputFile& file = files_.at(path);
-    file.write(text);
+    lidar_upsampling::write_json(comparison.result, comparison.figures,
+                                 [&](const std::string& text) { file.write(text); });
     file.commit();
   }
 
@@ -172,16 +178,12 @@ void evaluate(Request& request) {
     std::cout << to_text(calibration_of(result, *content.run));
   }
   if (content.run) std::cout << to_text(running_time_of(*content.run));
-  if (!request.json.empty())
-    outputs.write(request.json,
-                  to_json(content.comparison->result, content.comparison->figures)
-                          .dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) +
-                      '\n');
+  if (!request.json.empty()) outputs.write_json(request.json, *content.comparison);
   if (!request.csv.empty())
     outputs.write(request.csv, to_csv(content.comparison->result, content.comparison->figures));
   if (!wants_page) return;
   content.coverage =
-      measure_coverage(index_log({request.inputs.front(), request.job.accept_truncated}),
+      measure_coverage(index_streams({request.inputs.front(), request.job.accept_truncated}),
                        request.job.label, 1e-3 * request.tolerance_ms);
   outputs.write(request.html, to_page(content));
 }

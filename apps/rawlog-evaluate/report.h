@@ -2,7 +2,7 @@
 // Copyright (c) 2026, the lidar_upsampling authors
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
+#include <functional>
 #include <string>
 
 #include "evaluation.h"
@@ -15,8 +15,10 @@ namespace lidar_upsampling {
 [[nodiscard]] std::string to_table(const LogResult& result, const Figures& figures,
                                    const std::optional<Protocol>& protocol);
 
-/// Everything, per scan and object; the summary first.
-[[nodiscard]] nlohmann::ordered_json to_json(const LogResult& result, const Figures& figures);
+/// @brief Everything, per scan and object; the summary first. Piece by piece, as a document takes
+/// many times the memory of its scans.
+void write_json(const LogResult& result, const Figures& figures,
+                const std::function<void(const std::string& text)>& write);
 
 /// The headline as `row,figure,value` lines: for tables over several logs.
 [[nodiscard]] std::string to_csv(const LogResult& result, const Figures& figures);

@@ -72,7 +72,7 @@ void for_each_observation(const RawlogEntry& entry,
 ReadScans for_each_chosen_scan(const LogFile& log, const Choice& choice,
                                const std::function<void(double)>& progress,
                                const std::function<void(const LidarScan&)>& use) {
-  const LogIndex index = index_log(log);
+  const LogIndex index = index_streams(log);
   const StreamInfo& stream = stream_of(index, choice.label);
   const auto chosen = chosen_index(stream, choice, log.path);
   std::size_t number = 0;

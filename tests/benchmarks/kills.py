@@ -4,7 +4,8 @@
 """Kills all tools at random moments, and looks at what is left: final files whole, as before or not there, and no
 temporary ones beside them once the tool has run again. Python's own library is enough for it.
 
-  tests/benchmarks/kills.py build/ci/bin [--kills 200] [--seed 1] [--kitti DRIVE] [--argoverse LOG] [--dgp SCENE]"""
+  cmake --build --preset ci --target small_data_sets
+  tests/benchmarks/kills.py build/ci [--kills 200] [--seed 1] [--kitti DRIVE] [--argoverse LOG] [--dgp SCENE]"""
 import argparse
 import json
 import random
@@ -93,7 +94,7 @@ class Tool:
 
 
 def tools_of(options, work):
-    tool = {path.name: path for path in Path(options.bin).iterdir()}
+    tool = {path.name: path for path in (options.build / "bin").iterdir()}
     simulate = [tool["rawlog-simulate"], "--scenario", SCENARIO, "--duration", "0.5", "--overwrite"]
     densify, log, dense = [tool["rawlog-densify"], "--overwrite"], work / "in.rawlog", work / "dense.rawlog"
     run([*map(str, simulate), "-o", str(log), "--truth", str(work / "truth.rawlog")])
@@ -110,22 +111,21 @@ def tools_of(options, work):
     yield "export", [tool["rawlog-export"], "-i", dense, "-o", "OUT/many", "--overwrite"]
     yield "evaluate", [tool["rawlog-evaluate"], "--reference", work / "truth.rawlog", "-i", dense, "--no-paper",
                        "--json", "OUT/x.json", "--csv", "OUT/x.csv", "--html", "OUT/x.html"]
+    yield "map-compare", [tool["rawlog-map-compare"], "--reference", work / "truth.rawlog", "-i", dense]
+    run([str(options.build / "tests/benchmarks/small_data_sets"), str(work)])
     labels = ["--boxes", "OUT/boxes.csv", "--truth-objects", "OUT/x_objects.csv", "--overwrite", "-o", "OUT/x.rawlog"]
-    if options.kitti:
-        yield "kitti", [tool["kitti2rawlog"], "--drive", options.kitti, *labels]
-    if options.argoverse:
-        yield "argoverse", [tool["argoverse2rawlog"], "--log", options.argoverse, *labels]
-    if options.dgp:
-        yield "dgp", [tool["dgp2rawlog"], "--scene", options.dgp, *labels]
+    yield "kitti", [tool["kitti2rawlog"], "--drive", options.kitti or work / "kitti/drive", *labels]
+    yield "argoverse", [tool["argoverse2rawlog"], "--log", options.argoverse or work / "argoverse", *labels]
+    yield "dgp", [tool["dgp2rawlog"], "--scene", options.dgp or work / "dgp", *labels]
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("bin", help="folder of the tools")
+    parser.add_argument("build", type=Path, help="folder of the build")
     parser.add_argument("--kills", type=int, default=200)
     parser.add_argument("--seed", type=int, default=1)
     for data_set in ("kitti", "argoverse", "dgp"):
-        parser.add_argument(f"--{data_set}", help="to import from")
+        parser.add_argument(f"--{data_set}", help="to import from, instead of a small one")
     options = parser.parse_args()
     draw = random.Random(options.seed)
     with tempfile.TemporaryDirectory() as folder:

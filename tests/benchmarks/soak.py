@@ -2,18 +2,22 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Copyright (c) 2026, the lidar_upsampling authors
 """The most memory of all tools on a log of a minute and on a long one of the same street, which is to be the same but
-for a tenth. The street is a short one, simulated, again and again. Python's own library is enough for it.
+for a tenth. The street is a short one, simulated, again and again. Python's own library is enough for it, and MRPT's
+rawlog-grabber for the live sensor, which plays the log as fast as the work is done.
 
   cmake --build --preset ci --target repeat_log
   tests/benchmarks/soak.py build/ci [--minutes 60] [--only densify,report]"""
 import argparse
 import os
+import re
+import shutil
 import subprocess
 import sys
 import tempfile
 import time
 from pathlib import Path
 
+PROJECT = Path(__file__).resolve().parents[2]
 SCENARIO = """[scenario]
 duration_s = 4
 seed = 3
@@ -21,13 +25,17 @@ seed = 3
 y_m = -5.1
 speed_mps = 8
 [lidar]
-rings = 16
-columns = 450
+rings = 12
+columns = 200
 [camera.CAM0]
 width = 160
 height = 80
+rate_hz = 20
 [static]
 pedestrians = 0
+parked_cars = 0.1
+trees = 0.1
+poles = 0.1
 [vehicle.lead]
 x_m = 12
 y_m = -5.1
@@ -41,9 +49,9 @@ speed_mps = 9
 
 
 def run(command):
-    """Seconds and MB."""
+    """Seconds and MB. The pipe that it reads from stays open: rawlog-grabber stops at its end."""
     start = time.monotonic()
-    process = subprocess.Popen([str(word) for word in command], stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
+    process = subprocess.Popen([str(word) for word in command], stdin=subprocess.PIPE, stdout=subprocess.DEVNULL,
                                stderr=subprocess.PIPE, text=True)
     errors = process.stderr.read()
     _, status, usage = os.wait4(process.pid, 0)
@@ -53,13 +61,24 @@ def run(command):
     return time.monotonic() - start, usage.ru_maxrss / 1024
 
 
+def play(build, log, work):
+    """Settings by which the live sensor plays a log."""
+    settings = (PROJECT / "config/rawlog-grabber-play.ini").read_text()
+    for name, value in (("rawlog_prefix", work / "x_live"), ("rawlog", log), ("speed", 0)):
+        settings = re.sub(rf"(?m)^{name} = .*", f"{name} = {value}", settings)
+    file = work / f"{log.stem}_live.ini"
+    file.write_text(settings)
+    return [shutil.which("rawlog-grabber") or "rawlog-grabber", "-p",
+            build.resolve() / "mrpt_plugin/plugin/mrpt_lidar_upsampling.so", file]
+
+
 def tools_of(build, log, work):
     tools, dense = build / "bin", work / f"{log.stem}_dense.rawlog"
     densify = [tools / "rawlog-densify", "--overwrite", "-i", log, "-o"]
     evaluate = [tools / "rawlog-evaluate", "--reference", log, "-i", dense, "--no-chamfer"]
     return {
         "densify": [*densify, dense],
-        "report": [*densify, work / "x.rawlog", "--report", work / "x.json"],
+        "report": [*densify, dense, "--report", work / "x.json"],
         "offline": [*densify, work / "x.rawlog", "--set", "mode=offline"],
         "parts": [*densify, work / "x.rawlog", "--jobs", "2"],
         "pictures": [*densify, work / "x.rawlog", "--pictures", work / "pictures"],
@@ -69,6 +88,7 @@ def tools_of(build, log, work):
         "check": [tools / "rawlog-densify", "--check", "-i", log],
         "evaluate": [*evaluate, "--no-paper", "--json", work / "x.json"],
         "evaluate paper": evaluate,
+        "live": play(build, log, work),
     }
 
 

@@ -68,11 +68,28 @@ TEST_F(Outputs, that_cannot_be_written_are_refused_before_the_work) {
   expect_refused(evaluate_to("--json " + folder_ / "no/errors.json"), "no folder");
 }
 
-TEST_F(Outputs, on_a_full_disk_leave_nothing) {
-  expect_refused("trap '' XFSZ; ulimit -f 1; " + std::string(RAWLOG_EXPORT) +
-                     " --label LIDAR --input " + folder_ / "in.rawlog" + " --output " +
-                     folder_.path().string(),
-                 ".ply");
+TEST_F(Outputs, of_whatever_kind_on_a_full_disk_leave_nothing) {
+  const std::string in = " --input " + folder_ / "in.rawlog";
+  const std::string thin = std::string(RAWLOG_DECIMATE) + " --label LIDAR --keep-every 2" + in;
+  const std::string scans = std::string(RAWLOG_EXPORT) + " --label LIDAR" + in + " --output " +
+                            folder_.path().string() + " --format ";
+  const std::string street = std::string(RAWLOG_SIMULATE) +
+                             " --scenario " CONFIG_FOLDER
+                             "/scenarios/small.ini --duration 0.1 --output ";
+  // No file may grow beyond a block; the signal that tells so is ignored, writing then fails.
+  for (const auto& [command, name] : std::vector<std::pair<std::string, std::string>>{
+           {densify_to("new.rawlog", ""), "new.rawlog"},
+           {thin + " --output " + folder_ / "new.rawlog", "new.rawlog"},
+           {scans + "ply", ".ply"},
+           {scans + "bin", ".bin"},
+           {scans + "3Dscene", ".3Dscene"},
+           {street + folder_ / "new.rawlog", "new.rawlog"}})
+    expect_refused("trap '' XFSZ; ulimit -f 1; " + command, name);
+}
+
+TEST_F(Outputs, on_the_screen_that_are_cut_are_no_success) {
+  expect_refused("( " + std::string(RAWLOG_DENSIFY) + " --print-config >/dev/full )",
+                 "standard output");
 }
 
 /// A command that judges the log of a simulated street.
@@ -86,12 +103,19 @@ std::string evaluation(const TestFolder& folder, const std::string& more) {
 
 TEST(EvaluationOutputs, on_a_full_disk_leave_what_was_there_before) {
   const TestFolder folder;
-  std::ofstream(folder / "errors.json") << "{}";
-  const std::string command = evaluation(folder, "--json " + folder / "errors.json");
-  const ToolResult result = run_for_errors("trap '' XFSZ; ulimit -f 1; " + command);
-  EXPECT_EQ(result.status, 1);
-  EXPECT_TRUE(contains(result.text, "errors.json")) << result.text;
-  EXPECT_EQ(file_bytes(folder / "errors.json").size(), 2U);
+  const std::string command = evaluation(folder, "");
+  for (const char* const kind : {"json", "html"}) {
+    const std::string name = folder / std::string("old.") + kind;
+    std::ofstream(name) << "{}";
+    const ToolResult result =
+        run_for_errors("trap '' XFSZ; ulimit -f 1; " + command + "--" + kind + " " + name);
+    EXPECT_EQ(result.status, 1);
+    EXPECT_TRUE(contains(result.text, name)) << result.text;
+    EXPECT_EQ(file_bytes(name).size(), 2U);
+  }
+  const ToolResult table = run_for_errors(command + "--csv /dev/full");
+  EXPECT_EQ(table.status, 1);
+  EXPECT_TRUE(contains(table.text, "/dev/full")) << table.text;
 }
 
 TEST(EvaluationOutputs, go_to_a_device_where_told) {

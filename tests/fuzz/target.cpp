@@ -145,7 +145,7 @@ void tell_of_ends() {
   for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT})
     std::signal(signal, tell_and_end);
 #endif
-  std::signal(SIGALRM, tell_and_end);
+  for (const int signal : {SIGALRM, SIGPROF}) std::signal(signal, tell_and_end);
   std::atexit(tell_input);
 }
 

@@ -126,6 +126,16 @@ TEST(LogIndex, robot_poses_become_vehicle_poses) {
   EXPECT_TRUE(index.poses[0].T_world_vehicle.isApprox(from_mrpt(vehicle), 1e-9));
 }
 
+TEST(LogIndex, of_the_streams_alone_holds_no_motion) {
+  const TestFolder folder;
+  const LogIndex whole =
+      index_of({observation<mrpt::obs::CObservationRobotPose>("POSE", 0), fix(0, 4)}, folder);
+  const LogIndex streams = index_streams(folder / "log.rawlog");
+  EXPECT_EQ(whole.poses.size() + whole.gnss.size(), 2U);
+  EXPECT_EQ(streams.poses.size() + streams.gnss.size(), 0U);
+  EXPECT_EQ(labels_of(streams), labels_of(whole));
+}
+
 TEST(LogIndex, of_two_pose_streams_the_longer_one_counts) {
   const TestFolder folder;
   Objects objects;

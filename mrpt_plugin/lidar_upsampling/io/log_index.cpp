@@ -90,7 +90,7 @@ void LogIndexer::add_observation(const CObservation& observation) {
   if (image != nullptr && !stream.calibrated()) stream.camera = camera_of(*image);
   if (observation.timestamp == INVALID_TIMESTAMP) return;
   stream.stamps.push_back(observation.timestamp);
-  ego_.add_observation(observation);
+  if (with_ego_) ego_.add_observation(observation);
 }
 
 void LogIndexer::add(const mrpt::serialization::CSerializable& object) {
@@ -100,10 +100,10 @@ void LogIndexer::add(const mrpt::serialization::CSerializable& object) {
   } else if (const auto* const actions =
                  dynamic_cast<const mrpt::obs::CActionCollection*>(&object)) {
     index_.has_frames = true;
-    ego_.add_actions(*actions);
+    if (with_ego_) ego_.add_actions(*actions);
   } else if (const auto* const frame = dynamic_cast<const mrpt::obs::CSensoryFrame*>(&object)) {
     index_.has_frames = true;
-    ego_.add_frame(*frame);
+    if (with_ego_) ego_.add_frame(*frame);
     for (const auto& in_frame : *frame) add_observation(*in_frame);
   }
 }
@@ -117,13 +117,15 @@ LogIndex LogIndexer::index() const {
   return index;
 }
 
-LogIndex index_log(const LogFile& log, const std::function<void(double)>& progress) {
+namespace {
+
+LogIndex indexed(LogIndexer indexer, const LogFile& log,
+                 const std::function<void(double)>& progress) {
   if (is_device_or_pipe(log.path))
     throw std::runtime_error(log.path +
                              ": all of the log must be looked through first, and what comes "
                              "through a pipe is read once: save it to a file");
   RawlogReader reader(log);
-  LogIndexer indexer(log.path);
   while (const auto entry = reader.next()) {
     indexer.add(*entry->object);
     if (progress) progress(reader.progress());
@@ -131,6 +133,16 @@ LogIndex index_log(const LogFile& log, const std::function<void(double)>& progre
   LogIndex index = indexer.index();
   index.corruption = reader.damage();
   return index;
+}
+
+}  // namespace
+
+LogIndex index_log(const LogFile& log, const std::function<void(double)>& progress) {
+  return indexed(LogIndexer(log.path), log, progress);
+}
+
+LogIndex index_streams(const LogFile& log) {
+  return indexed(LogIndexer(log.path, false), log, nullptr);
 }
 
 std::string labels_of(const LogIndex& index) {

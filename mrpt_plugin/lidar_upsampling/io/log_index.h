@@ -52,7 +52,9 @@ struct LogIndex {
 /// @brief Makes the index of a log while it is read.
 class LogIndexer {
  public:
-  explicit LogIndexer(std::string path) { index_.path = std::move(path); }
+  explicit LogIndexer(std::string path, bool with_ego = true) : with_ego_(with_ego) {
+    index_.path = std::move(path);
+  }
 
   void add(const mrpt::serialization::CSerializable& object);
 
@@ -67,6 +69,7 @@ class LogIndexer {
 
   LogIndex index_;
   EgoSamples ego_;
+  bool with_ego_;
 };
 
 /// @brief Reads a whole log once, loading nothing that is stored externally.
@@ -75,6 +78,9 @@ class LogIndexer {
 /// the rest, and LogIndex::corruption.
 [[nodiscard]] LogIndex index_log(const LogFile& log,
                                  const std::function<void(double)>& progress = nullptr);
+
+/// @brief The same without the vehicle's motion, which takes most of an index's memory.
+[[nodiscard]] LogIndex index_streams(const LogFile& log);
 
 /// "LIDAR (lidar), CAM2 (camera), ...": one line, for messages on a label that is not there.
 [[nodiscard]] std::string labels_of(const LogIndex& index);
