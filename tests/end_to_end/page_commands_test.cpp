@@ -39,8 +39,9 @@ const char* reason_not_to_run(const std::string& command) {
 // A program, and a file that it is to work on: what names a program or an option alone is none.
 bool is_command(const std::string& line) {
   static const std::regex program(
-      R"(^(\w+=\w+ )?(((\$bin|build|share|tests)/[\w/.-]+)|bash|mkdir|cmake|cpack|git|snakemake|sleep|export|)"
-      R"(rawlog-\w+(-\w+)?|\w+2rawlog|icp-slam|rbpf-slam|observations2map|RawLogViewer|SceneViewer3D) .*[\w>]*[./|])");
+      R"(^(\w+=\w+ )?((\$bin|build|share|tests)/[\w/.-]+ .|)"
+      R"((bash|mkdir|cmake|cpack|git|snakemake|sleep|export|rawlog-\w+(-\w+)?|\w+2rawlog|icp-slam|)"
+      R"(rbpf-slam|observations2map|RawLogViewer|SceneViewer3D) .*[\w>]*[./|]))");
   return std::regex_search(line, program);
 }
 
