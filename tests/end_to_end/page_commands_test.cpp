@@ -124,8 +124,11 @@ class Reader {
       expect_done("head -n " + std::to_string(kFrames) + " " +
                   (part.path() / "timestamps.txt").string() + " > " +
                   (copy / "timestamps.txt").string());
-      expect_done("ls -d " + (part.path() / "data").string() + "/* | head -n " +
-                  std::to_string(kFrames) + " | xargs ln -s -t " + (copy / "data").string());
+      std::vector<fs::path> frames(fs::directory_iterator(part.path() / "data"), {});
+      std::sort(frames.begin(), frames.end());
+      frames.resize(std::min<std::size_t>(frames.size(), kFrames));
+      for (const fs::path& frame : frames)
+        fs::create_symlink(frame, copy / "data" / frame.filename());
     }
   }
 
