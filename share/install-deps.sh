@@ -12,7 +12,7 @@ packages=(
 case "${1:-}" in
   "") ;;
   --tests) packages+=(libgtest-dev libbenchmark-dev clang-format xvfb x11-apps xdotool chromium
-      dpkg-dev lintian man-db) ;;
+      dpkg-dev lintian man-db hunspell hunspell-en-gb) ;;
   *) echo "usage: $0 [--tests]" >&2; exit 2 ;;
 esac
 

@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -67,7 +68,7 @@ inline void warn(const std::string& tool, const std::string& text) {
   std::cerr << tool << ": warning: " << text << "\n";
 }
 
-/// Percents and the time left: on a terminal in place, elsewhere a line a minute.
+/// Percents, their rate and the time left: on a terminal in place, elsewhere a line a minute.
 class Progress {
  public:
   explicit Progress(std::string what) : what_(std::move(what)) {}
@@ -86,7 +87,7 @@ class Progress {
     percent_ = percent;
     told_s_ = since_s;
     std::fprintf(stderr, on_terminal_ ? "\r\033[K%s %3d %%%s" : "%s %3d %%%s\n", what_.c_str(),
-                 percent, left(share, since_s).c_str());
+                 percent, rate_and_left(share, since_s).c_str());
   }
 
  private:
@@ -95,11 +96,13 @@ class Progress {
     return std::chrono::duration<double>(Clock::now() - begin).count();
   }
   /// Nothing before it can be told.
-  static std::string left(double share, double since_s) {
+  static std::string rate_and_left(double share, double since_s) {
     constexpr double kLeastShare = 0.02, kLeast_s = 2;
     if (share < kLeastShare || since_s < kLeast_s) return {};
     const auto left_s = static_cast<long>(since_s * (1 - share) / share);
-    return ", " +
+    std::array<char, 32> rate{};
+    std::snprintf(rate.data(), rate.size(), ", %.2g %%/s, ", 100 * share / since_s);
+    return rate.data() +
            (left_s < 120 ? std::to_string(left_s) + " s" : std::to_string(left_s / 60) + " min") +
            " left";
   }

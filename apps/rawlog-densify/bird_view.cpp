@@ -14,7 +14,8 @@
 namespace lidar_upsampling {
 namespace {
 
-const cv::Scalar kText(235, 235, 235), kReal(92, 84, 80), kPoint(190, 160, 120);
+const cv::Scalar kGround(24, 20, 18), kText(235, 235, 235), kReal(92, 84, 80),
+    kPoint(190, 160, 120);
 constexpr float kHighest_m = 2.5F;  // roofs and trees would cover the road
 
 double step_of_rings(const BirdView& view) {
@@ -98,6 +99,16 @@ std::string ms_after(const VirtualScan& scan) {
   return text.str();
 }
 
+/// On a ground of its own, as rings, points and arrows may lie there.
+void put_legend(cv::Mat& picture, Labels& labels, const std::string& text, cv::Point at,
+                double size, const cv::Scalar& color) {
+  int below = 0;
+  const cv::Size extent = cv::getTextSize(text, cv::FONT_HERSHEY_SIMPLEX, size, 1, &below);
+  cv::rectangle(picture, at + cv::Point(-6, -extent.height - 5),
+                at + cv::Point(extent.width + 6, below + 3), kGround, cv::FILLED);
+  labels.put(text, at, size, color);
+}
+
 }  // namespace
 
 BirdScene scene_of(const VirtualScan& scan) {
@@ -171,7 +182,7 @@ cv::Point2d BirdView::at(const Eigen::Vector3d& p) const {
 cv::Mat from_above(const BirdScene& scene, const LidarScan* before, const Trails& trails,
                    const std::vector<Camera>& cameras, const Pose& T_vehicle_lidar,
                    const BirdView& view) {
-  cv::Mat picture(view.size(), CV_8UC3, cv::Scalar(24, 20, 18));
+  cv::Mat picture(view.size(), CV_8UC3, kGround);
   draw_grid(picture, view);
   for (const Camera& camera : cameras) draw_view_of(picture, camera, T_vehicle_lidar, view);
   if (before != nullptr) draw_before(picture, view, *before);
@@ -179,10 +190,12 @@ cv::Mat from_above(const BirdScene& scene, const LidarScan* before, const Trails
   for (const Mover& mover : scene.movers) draw_mover(picture, view, scene, mover, trails);
 
   Labels labels(picture);
-  labels.put(scene.title, {16, 28}, 0.6, kText);
-  if (before != nullptr) labels.put("gray: last real scan", {16, 52}, 0.5, {170, 170, 170});
+  put_legend(picture, labels, scene.title, {16, 28}, 0.6, kText);
+  if (before != nullptr)
+    put_legend(picture, labels, "grey: last real scan", {16, 52}, 0.5, {170, 170, 170});
   if (!scene.movers.empty())
-    labels.put("colour: what moves, its way and speed", {16, 74}, 0.5, {140, 220, 255});
+    put_legend(picture, labels, "colour: what moves, its way and speed", {16, 74}, 0.5,
+               {140, 220, 255});
   const cv::Rect inside({0, 0}, picture.size());
   for (const Mover& mover : scene.movers)
     if (inside.contains(cv::Point(view.at(mover.position))))

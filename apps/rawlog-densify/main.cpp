@@ -68,6 +68,7 @@ void add_ways_to_work(CLI::App& app, Request& request) {
                  "fail are named at the end. One input: in so many parts side by side, joined to "
                  "one output. As many always give the same; other than with one is what rests on "
                  "what came before a part's --warm-up")
+      ->capture_default_str()
       ->check(CLI::Range(1, 1000));
   app.add_option("--warm-up", request.warm_up_s,
                  "s, that each part of a log looks back from its begin")
@@ -121,6 +122,14 @@ void check_files_of(const Request& request) {
                {"--film", request.job.film}});
 }
 
+std::string further_files(const Request& request) {
+  std::string text;
+  if (!request.report.empty()) text += "report            " + request.report + "\n";
+  if (!request.job.pictures.empty()) text += "pictures          " + request.job.pictures + "\n";
+  if (!request.job.film.empty()) text += "film              " + request.job.film + "\n";
+  return text;
+}
+
 void work_on(Request& request) {
   if (request.print_config) {
     std::cout << default_ini();
@@ -146,7 +155,7 @@ void work_on(Request& request) {
     Progress progress("densifying");
     text = densify_one(request.job, request.report, parts, std::ref(progress));
   }
-  std::cout << text;
+  std::cout << text << further_files(request);
 }
 
 }  // namespace
@@ -169,7 +178,7 @@ int main(int argc, char** argv) {
       throw CLI::ValidationError("--check", "looks at one input");
   });
   app.footer(
-      "Example:\n  rawlog-densify -i log.rawlog -o dense.rawlog --report report.json --film "
+      "Examples:\n  rawlog-densify -i log.rawlog -o dense.rawlog --report report.json --film "
       "film.mp4");
   return run_tool(app, argc, argv, [&] { work_on(request); });
 }

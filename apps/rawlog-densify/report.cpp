@@ -3,6 +3,7 @@
 #include "report.h"
 
 #include <algorithm>
+#include <iomanip>
 #include <optional>
 #include <sstream>
 
@@ -36,6 +37,22 @@ std::string resampling_line(const std::map<std::string, std::size_t>& resampling
     text << (text.tellp() > 0 ? ", " : "points            ") << count << "x "
          << meanings.at(status);
   if (text.tellp() > 0) text << '\n';
+  return text.str();
+}
+
+// Objects, counted anew at each image, by what became of them.
+std::string status_lines(const std::map<std::string, std::size_t>& object_status) {
+  static const std::map<std::string, const char*> meanings{
+      {"moving", "measured on the picture to move"},
+      {"stationary", "measured on the picture to stand"},
+      {"predicted", "moved on by their tracks, as the picture tells nothing"},
+      {"too_few_points", "left standing, too small or too plain to be followed on the picture"},
+      {"no_consensus", "left standing, as their points agree on no motion"}};
+  std::ostringstream text;
+  if (!object_status.empty()) text << "objects on images, each anew on every one\n";
+  for (const auto& [status, count] : object_status)
+    text << "  " << std::left << std::setw(16) << status << std::setw(8) << count
+         << meanings.at(status) << '\n';
   return text.str();
 }
 
@@ -134,10 +151,8 @@ std::string summary(const DensifyReport& report) {
        << (report.carrier.empty() ? "" : " (as " + report.carrier + ")") << '\n'
        << "objects tracked   " << report.tracks.size() << ", of them moving "
        << report.moving_tracks.size() << '\n';
-  for (const auto& [status, count] : report.object_status)
-    text << "  " << status << std::string(16 - std::min<std::size_t>(15, status.size()), ' ')
-         << count << '\n';
-  text << sights_line(report.object_status) << resampling_line(report.resampling);
+  text << status_lines(report.object_status) << sights_line(report.object_status)
+       << resampling_line(report.resampling);
   if (report.num_extrapolated > 0)
     text << "ego-motion was extrapolated for " << report.num_extrapolated << " virtual scans\n";
   if (!report.stage_order.empty()) text << "stage                   runs  median ms  p95 ms\n";

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the lidar_upsampling authors
 #include <mrpt/core/Clock.h>
+#include <stdlib.h>  // getloadavg is BSD's, not in <cstdlib>
 
 #include <functional>
 #include <nlohmann/json.hpp>
 #include <ostream>
+#include <thread>
 #include <utility>
 
 #include "common/indented_json.h"
@@ -12,6 +14,12 @@
 
 namespace lidar_upsampling {
 namespace {
+
+// Programs that wanted a core, on average over the last minute; 0: not known.
+double load_of_machine() {
+  double load = 0;
+  return getloadavg(&load, 1) == 1 ? load : 0;
+}
 
 nlohmann::json vector_json(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 
@@ -67,32 +75,34 @@ nlohmann::json cluster_json(Stamp key_stamp, const OtherCluster& cluster) {
 
 // Without rows.
 nlohmann::json head_json(const DensifyReport& report) {
-  nlohmann::json json{{"input", report.input},
-                      {"output", report.output},
-                      {"mode", report.mode},
-                      {"hindsight", report.hindsight},
-                      {"camera_time_offset_ms", report.camera_time_offset_ms},
-                      {"ego_motion", report.ego_source},
-                      {"detector", report.detector},
-                      {"carrier", report.carrier},
-                      {"entries_in", report.num_objects_in},
-                      {"scans_in", report.num_scans},
-                      {"images_in", report.num_images},
-                      {"virtual_scans", report.num_virtual_scans},
-                      {"virtual_scans_with_extrapolated_ego_motion", report.num_extrapolated},
-                      {"resampling", report.resampling},
-                      {"tracks", report.tracks.size()},
-                      {"moving_tracks", report.moving_tracks.size()},
-                      {"object_status", report.object_status},
-                      {"warnings", report.told_warnings()},
-                      {"stages", nlohmann::json::array()},
-                      {"frames",
-                       {{"position_m", "LiDAR at the image"},
-                        {"velocity_m_s", "LiDAR at the key scan, over ground"},
-                        {"clusters_left_static", "LiDAR at the key scan"}}},
-                      {"objects", nlohmann::json::array()},
-                      {"objects_out_of_view", nlohmann::json::array()},
-                      {"clusters_left_static", nlohmann::json::array()}};
+  nlohmann::json json{
+      {"input", report.input},
+      {"output", report.output},
+      {"mode", report.mode},
+      {"hindsight", report.hindsight},
+      {"camera_time_offset_ms", report.camera_time_offset_ms},
+      {"ego_motion", report.ego_source},
+      {"detector", report.detector},
+      {"carrier", report.carrier},
+      {"entries_in", report.num_objects_in},
+      {"scans_in", report.num_scans},
+      {"images_in", report.num_images},
+      {"virtual_scans", report.num_virtual_scans},
+      {"virtual_scans_with_extrapolated_ego_motion", report.num_extrapolated},
+      {"resampling", report.resampling},
+      {"tracks", report.tracks.size()},
+      {"moving_tracks", report.moving_tracks.size()},
+      {"object_status", report.object_status},
+      {"warnings", report.told_warnings()},
+      {"machine", {{"load", load_of_machine()}, {"cores", std::thread::hardware_concurrency()}}},
+      {"stages", nlohmann::json::array()},
+      {"frames",
+       {{"position_m", "LiDAR at the image"},
+        {"velocity_m_s", "LiDAR at the key scan, over ground"},
+        {"clusters_left_static", "LiDAR at the key scan"}}},
+      {"objects", nlohmann::json::array()},
+      {"objects_out_of_view", nlohmann::json::array()},
+      {"clusters_left_static", nlohmann::json::array()}};
   for (const std::string& stage : report.stage_order) {
     const Durations& times = report.stage_ms.at(stage);
     json["stages"].push_back({{"stage", stage},

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "label_table.h"
+#include "beaten.h"
 #include "lidar_upsampling/units.h"
 
 namespace lidar_upsampling {
@@ -144,12 +144,25 @@ std::vector<double> horizon_edges(const LogResult& result) {
   return edges;
 }
 
+/// Of those in [from, to).
+double mean_key(const std::vector<KeyedError>& errors, double from, double to) {
+  double sum = 0;
+  int count = 0;
+  for (const KeyedError& error : errors)
+    if (error.key >= from && error.key < to) {
+      sum += error.key;
+      ++count;
+    }
+  return sum / std::max(count, 1);
+}
+
 template <typename Key>
 Binned binned_by(const LogResult& result, bool moving, const char* name, const char* unit,
                  const std::vector<double>& edges, const Key& key) {
   Binned binned{name, unit, moving, {}};
   if (edges.size() < 2) return binned;  // no scan was compared
   PerRow<std::vector<ErrorBin>> per_row;
+  std::vector<KeyedError> ours;
   for (const Row row : kRows) {
     std::vector<KeyedError> errors;
     visit_objects(result, [&](const ScanResult& scan, const ObjectResult& object) {
@@ -157,9 +170,10 @@ Binned binned_by(const LogResult& result, bool moving, const char* name, const c
         errors.push_back({key(scan, object), object.errors[row]->position_m});
     });
     per_row[row] = bin_errors(errors, edges);
+    if (row == Row::ours) ours = std::move(errors);
   }
   for (std::size_t i = 0; i + 1 < edges.size(); ++i) {
-    Bin bin{edges[i], edges[i + 1], {}};
+    Bin bin{edges[i], edges[i + 1], {}, mean_key(ours, edges[i], edges[i + 1])};
     for (const Row row : kRows) bin.rows[row] = per_row[row][i].errors;
     if (bin.rows[Row::ours].count > 0) binned.bins.push_back(bin);
   }
@@ -215,42 +229,6 @@ void add_reference(const LogResult& result, Figures& figures) {
   for (const ScanResult& scan : result.scans) figures.num_interpolated += scan.interpolated ? 1 : 0;
 }
 
-/// The baselines that a user could take instead.
-void find_beaten(const LogResult& result, Figures& figures) {
-  const auto compare = [&](const char* what, auto get) {
-    const auto [ours, count] = get(figures.rows[Row::ours]);
-    if (count == 0) return;
-    for (const Row row : {Row::hold, Row::ego, Row::constant_velocity, Row::paper}) {
-      const auto [value, row_count] = get(figures.rows[row]);
-      if (row_count == 0 || !(value < ours)) continue;
-      figures.beaten.push_back(std::string(what) + ": " + name_of(row));
-    }
-  };
-  using Value = std::pair<double, int>;
-  const auto mean = [](const ErrorSummary& summary) { return Value{summary.mean, summary.count}; };
-  const auto seeded = [](const SeededFigure& f) { return Value{f.mean, f.num_scans}; };
-  if (result.labels[Row::ours]) {
-    PerRow<LabelFigures> labels;
-    for (const Row row : kRows)
-      if (result.labels[row]) labels[row] = label_figures(*result.labels[row]);
-    for (const Row row : {Row::ego, Row::constant_velocity, Row::paper}) {
-      if (labels[row].movers_m.count == 0) continue;
-      if (labels[row].movers_m.mean < labels[Row::ours].movers_m.mean)
-        figures.beaten.push_back(std::string("labelled movers, mean: ") + name_of(row));
-      if (labels[row].movers_m.p95 < labels[Row::ours].movers_m.p95)
-        figures.beaten.push_back(std::string("labelled movers, p95: ") + name_of(row));
-    }
-  }
-  compare("moving objects, mean", [&](const RowFigures& r) { return mean(r.moving.position_m); });
-  compare("static objects, mean", [&](const RowFigures& r) { return mean(r.standing.position_m); });
-  compare("points of moving objects", [&](const RowFigures& r) { return mean(r.moving_points_m); });
-  compare("static scene", [&](const RowFigures& r) { return mean(r.static_scene_m); });
-  compare("Chamfer m, all", [&](const RowFigures& r) { return mean(r.chamfer_m); });
-  compare("Chamfer m, in view", [&](const RowFigures& r) { return mean(r.view_chamfer_m); });
-  compare("sampled CD m2", [&](const RowFigures& r) { return seeded(r.sampled.chamfer_m2); });
-  compare("sampled EMD m2", [&](const RowFigures& r) { return seeded(r.sampled.emd_m2); });
-}
-
 }  // namespace
 
 Figures compute_figures(const LogResult& result) {
@@ -260,7 +238,7 @@ Figures compute_figures(const LogResult& result) {
   add_depth_by_object(result, figures);
   count_left_out(result, figures);
   add_reference(result, figures);
-  find_beaten(result, figures);
+  figures.beaten = beaten_figures(result, figures.rows);
   return figures;
 }
 

@@ -40,9 +40,10 @@ struct RowFigures {
 struct Bin {
   double from = 0, to = 0;
   PerRow<ErrorSummary> rows;
+  double mean_key = 0;  ///< of its objects
 };
 
-/// "10 to 20 m", "80 m and more"; times by their middle.
+/// "10 to 20 m", "80 m and more"; times by their mean, as images are hardly at whole hundredths.
 [[nodiscard]] std::string edges_of(const Bin& bin, const std::string& unit);
 
 struct Binned {

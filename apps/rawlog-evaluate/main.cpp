@@ -196,6 +196,6 @@ int main(int argc, char** argv) {
   Request request;
   add_options(app, request);
   app.footer(
-      "Example:\n  rawlog-evaluate --reference full.rawlog -i dense.rawlog --html page.html");
+      "Examples:\n  rawlog-evaluate --reference full.rawlog -i dense.rawlog --html page.html");
   return run_tool(app, argc, argv, [&] { evaluate(request); });
 }

@@ -94,7 +94,7 @@ std::string chamfer_block(const Figures& figures) {
 }  // namespace
 
 std::string edges_of(const Bin& bin, const std::string& unit) {
-  if (unit == "s") return formatted("%.2f s", 0.5 * (bin.from + bin.to));
+  if (unit == "s") return formatted("%.0f ms", 1e3 * bin.mean_key);
   if (std::isinf(bin.to)) return formatted("%.0f %s and more", bin.from, unit.c_str());
   return formatted("%.0f to %.0f %s", bin.from, bin.to, unit.c_str());
 }

@@ -73,7 +73,7 @@ int main(int argc, char** argv) {
                  "Truth table ..._objects.csv to make from them, ..._ego.csv beside");
   app.add_flag("--overwrite", options.overwrite, "Replace existing outputs");
   app.footer(
-      "Example:\n  argoverse2rawlog --log train1/043aeba7 -o log.rawlog --truth-objects "
+      "Examples:\n  argoverse2rawlog --log train1/043aeba7 -o log.rawlog --truth-objects "
       "log_objects.csv");
   return run_tool(app, argc, argv, [&] {
     options.labels.overwrite = options.overwrite;

@@ -83,7 +83,7 @@ int main(int argc, char** argv) {
                  "Truth table ..._objects.csv to make from them, ..._ego.csv beside");
   app.add_flag("--overwrite", options.overwrite, "Replace existing outputs");
   app.footer(
-      "Example:\n  dgp2rawlog --scene ddad/000150 -o log.rawlog --truth-objects log_objects.csv");
+      "Examples:\n  dgp2rawlog --scene ddad/000150 -o log.rawlog --truth-objects log_objects.csv");
   return run_tool(app, argc, argv, [&] {
     options.labels.overwrite = options.overwrite;
     dgp::convert(options);

@@ -99,8 +99,10 @@ void add_options(CLI::App& app, Options& options) {
       ->check(CLI::Range(0, 3))
       ->capture_default_str();
   FrameRange& frames = options.selection.frames;
-  app.add_option("--first", frames.first, "First frame")->check(CLI::Range(0, 1000000000));
-  app.add_option("--last", frames.last, "Last frame, included")->check(CLI::Range(0, 1000000000));
+  app.add_option("--first", frames.first, "First frame [the drive's]")
+      ->check(CLI::Range(0, 1000000000));
+  app.add_option("--last", frames.last, "Last frame, included [the drive's]")
+      ->check(CLI::Range(0, 1000000000));
   app.add_option(
          "--labels", options.label_file,
          "tracklet_labels.xml, or a file in the format of the tracking benchmark's label_02 "
@@ -129,7 +131,7 @@ int main(int argc, char** argv) {
       "kitti2rawlog");
   kitti::add_options(app, options);
   app.footer(
-      "Example:\n  kitti2rawlog --drive 2011_09_26/2011_09_26_drive_0052_sync -o full.rawlog");
+      "Examples:\n  kitti2rawlog --drive 2011_09_26/2011_09_26_drive_0052_sync -o full.rawlog");
   return run_tool(app, argc, argv, [&] {
     options.labels.overwrite = options.overwrite;
     kitti::convert(options);

@@ -131,11 +131,12 @@ int main(int argc, char** argv) {
       ->required()
       ->check(CLI::Range(0, 1000000));
   app.add_option("--offset", options.offset, "Number of the first one that is kept, from 0")
+      ->capture_default_str()
       ->check(CLI::Range(0, 1000000000));
   app.add_flag("--overwrite", options.overwrite, "Replace an existing output");
   app.add_flag("--accept-truncated", options.accept_truncated,
                "Of a damaged log, take all that can be read, before and behind the damage");
   app.footer(
-      "Example:\n  rawlog-decimate -i full.rawlog -o sparse.rawlog --label LIDAR --keep-every 2");
+      "Examples:\n  rawlog-decimate -i full.rawlog -o sparse.rawlog --label LIDAR --keep-every 2");
   return lidar_upsampling::run_tool(app, argc, argv, [&] { lidar_upsampling::decimate(options); });
 }

@@ -144,7 +144,7 @@ int main(int argc, char** argv) {
     if (options.format != "3Dscene" && (*report || *track))
       throw CLI::ValidationError("--report and --track need --format 3Dscene");
   });
-  app.footer("Example:\n  rawlog-export -i dense.rawlog -o clouds --format ply");
+  app.footer("Examples:\n  rawlog-export -i dense.rawlog -o clouds --format ply");
   return lidar_upsampling::run_tool(app, argc, argv,
                                     [&] { lidar_upsampling::exporting::export_scans(options); });
 }

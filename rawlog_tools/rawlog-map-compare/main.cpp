@@ -85,8 +85,10 @@ int main(int argc, char** argv) {
                  "Logs whose scans are mapped at the reference's poses");
   app.add_option("--simplemap", options.simplemaps, "What icp-slam or rbpf-slam wrote, as paths");
   app.add_option("--voxel", options.map.voxel_m, "Side of a voxel, m")
+      ->capture_default_str()
       ->check(CLI::Range(0.01, 10.));
   app.add_option("--max-range", options.map.max_range_m, "Farther points are left out, m")
+      ->capture_default_str()
       ->check(CLI::Range(1., 1000.));
   app.add_flag("--accept-truncated", options.accept_truncated,
                "Of a damaged log, take all that can be read, before and behind the damage");
@@ -95,7 +97,7 @@ int main(int argc, char** argv) {
       throw CLI::ValidationError("give something to compare: --input or --simplemap");
   });
   app.footer(
-      "Example:\n  rawlog-map-compare --reference full.rawlog -i sparse.rawlog dense.rawlog");
+      "Examples:\n  rawlog-map-compare --reference full.rawlog -i sparse.rawlog dense.rawlog");
   return lidar_upsampling::run_tool(app, argc, argv,
                                     [&] { lidar_upsampling::maps::compare(options); });
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the lidar_upsampling authors
 #include <cmath>
+#include <filesystem>
 #include <iostream>
 
 #include "common/tool_main.h"
@@ -30,6 +31,19 @@ double least_bytes(const lidar_upsampling::sim::Scenario& scenario) {
   return kLeastShare * 3 * pixels;
 }
 
+/// One that there is not may be the name of an installed one, or of one beside the build.
+std::string scenario_file(const std::string& given) {
+  namespace fs = std::filesystem;
+  if (fs::exists(given)) return given;
+  const fs::path bin = fs::read_symlink("/proc/self/exe").parent_path();
+  for (const char* folder :
+       {"../share/lidar_upsampling/config/scenarios", "../../../config/scenarios"}) {
+    const fs::path file = (bin / folder / given).replace_extension(".ini").lexically_normal();
+    if (fs::exists(file)) return file.string();
+  }
+  return given;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -40,7 +54,10 @@ int main(int argc, char** argv) {
   std::string scenario_path;
   double duration_s = 0;
   std::uint32_t seed = 0;
-  app.add_option("--scenario", scenario_path, "the world, its vehicles and sensors (INI)")
+  app.add_option(
+         "--scenario", scenario_path,
+         "the world, its vehicles and sensors (INI), or the name of one that comes with the "
+         "tools, as demo")
       ->required();
   app.add_option("-o,--output", job.output, "the log to make (.rawlog)")->required();
   app.add_option("--truth", job.truth, "log of a scan and the exact pose at every image's stamp");
@@ -53,9 +70,10 @@ int main(int argc, char** argv) {
       "far as the scenario's [variation] lets; without it, it is exactly as written");
   app.add_flag("--overwrite", job.overwrite, "replace existing files");
   app.footer(
-      "Example:\n  rawlog-simulate --scenario demo.ini -o sim.rawlog --truth truth.rawlog --seed "
+      "Examples:\n  rawlog-simulate --scenario demo -o sim.rawlog --truth truth.rawlog --seed "
       "7");
   return run_tool(app, argc, argv, [&] {
+    scenario_path = scenario_file(scenario_path);
     check_files({{"--scenario", scenario_path}},
                 {{"--output", job.output}, {"--truth", job.truth}});
     static_cast<void>(read_ini(scenario_path, IniRepeats::allow));  // lines that do nothing

@@ -4,6 +4,7 @@ set(CPACK_PACKAGE_CONTACT "the lidar_upsampling authors <authors@lidar-upsamplin
   "The packages' maintainer")
 set(CPACK_PACKAGE_VENDOR "the lidar_upsampling authors")
 set(CPACK_COMPONENTS_ALL runtime development)
+set(CPACK_PACKAGE_DIRECTORY ${PROJECT_BINARY_DIR}/packages)  # wherever cpack is called
 set(CPACK_STRIP_FILES ON)
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS

@@ -144,6 +144,19 @@ TEST_F(Page, running_times_add_up) {
   EXPECT_NEAR(printed, total / report["virtual_scans"].get<double>(), 0.051);
 }
 
+TEST_F(Page, tells_of_times_that_were_taken_beside_other_work) {
+  std::ifstream file(folder_ / "report.json");
+  auto report = nlohmann::json::parse(file, nullptr, false);
+  const int cores = report["machine"]["cores"];
+  for (const int load : {cores, 3 * cores}) {
+    report["machine"]["load"] = load;
+    std::ofstream(folder_ / "report.json") << report;
+    make_page("--report " + folder_ / "report.json");
+    EXPECT_EQ(contains(text_of(folder_ / "page.html"), "Other work shared the machine"),
+              load > cores);
+  }
+}
+
 TEST_F(Page, asks_for_gnuplot_before_it_starts_working) {
   const ToolResult result = run_for_errors("PATH=/nowhere " + std::string(RAWLOG_EVALUATE) +
                                            " --input missing.rawlog --html " + folder_ / "x.html");

@@ -1,40 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the lidar_upsampling authors
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <map>
-#include <regex>
-#include <set>
 
+#include "pages.h"
 #include "pipeline.h"
 
 namespace lidar_upsampling {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::vector<fs::path> pages() {
-  const fs::path project = PROJECT_FOLDER;
-  std::vector<fs::path> found{project / "README.md", project / "CONTRIBUTING.md",
-                              project / "CHANGELOG.md"};
-  for (const auto& entry : fs::recursive_directory_iterator(project / "share"))
-    if (entry.path().extension() == ".md") found.push_back(entry.path());
-  return found;
-}
-
-std::string text_of_page(const fs::path& page) {
-  std::ifstream file(page);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
-std::vector<std::string> matches(const std::string& text, const char* pattern) {
-  const std::regex regex(pattern);
-  std::vector<std::string> found;
-  for (std::sregex_iterator match(text.begin(), text.end(), regex), end; match != end; ++match)
-    found.push_back((*match)[1]);
-  return found;
-}
 
 TEST(Pages, every_link_to_a_file_leads_to_one) {
   for (const fs::path& page : pages())
@@ -114,29 +89,6 @@ TEST(Pages, no_word_stands_twice_in_a_row) {
     std::smatch match;
     EXPECT_FALSE(std::regex_search(text, match, twice)) << page << ": " << match[0];
   }
-}
-
-// The first block of commands behind a headline.
-std::string commands_behind(const std::string& headline, const fs::path& page) {
-  const std::string text = text_of_page(page), fence = "```\n";
-  const auto begin = text.find(fence, text.find(headline)) + fence.size();
-  return text.substr(begin, text.find(fence, begin) - begin);
-}
-
-TEST(Pages, README_makes_a_dense_log_a_film_and_a_page_of_a_drive_as_written) {
-  const fs::path day = data_folder() / "kitti_raw/2011_09_26";
-  if (!fs::exists(day / "2011_09_26_drive_0052_sync")) GTEST_SKIP() << "no " << day;
-  const TestFolder folder;
-  fs::create_directories(folder.path() / "build/release");
-  fs::create_symlink(fs::path(BUILD_FOLDER) / "bin", folder.path() / "build/release/bin");
-  fs::create_symlink(fs::path(PROJECT_FOLDER) / "config", folder.path() / "config");
-  fs::create_symlink(fs::canonical(day), folder.path() / day.filename());
-  std::ofstream(folder / "commands") << "set -eu\n"
-                                     << commands_behind("## Your own log", pages().front());
-  expect_done("cd " + folder.path().string() + " && bash commands");
-  for (const char* const made :
-       {"full.rawlog", "sparse.rawlog", "dense.rawlog", "report.json", "film.mp4", "page.html"})
-    EXPECT_GT(fs::file_size(folder.path() / made), 1000U) << made;
 }
 
 TEST(Pages, README_tells_it_in_a_hundred_lines) {

@@ -40,12 +40,19 @@ TEST_F(Install, files_lie_where_debian_expects_them) {
     EXPECT_TRUE(has("share/bash-completion/completions/" + tool)) << tool;
 }
 
+TEST_F(Install, a_scenario_that_comes_along_is_found_by_its_name) {
+  const TestFolder folder;
+  text_of("cd " + folder.path().string() + " && " + path("bin/rawlog-simulate") +
+          " --scenario small --duration 0.2 --output in.rawlog");
+  EXPECT_TRUE(std::filesystem::exists(folder / "in.rawlog"));
+}
+
 TEST_F(Install, every_tool_has_a_man_page_that_lists_its_options) {
   for (const std::string& tool : tool_names()) {
     const std::string page =
         text_of("man --local-file " + path("share/man/man1/" + tool + ".1.gz"));
-    for (const char* part :
-         {"NAME", "SYNOPSIS", "OPTIONS", "--version", "EXIT STATUS", "FILES", "SEE ALSO"})
+    for (const char* part : {"NAME", "SYNOPSIS", "OPTIONS", "--version", "EXAMPLES", "EXIT STATUS",
+                             "FILES", "SEE ALSO"})
       EXPECT_TRUE(contains(page, part)) << tool << " lacks " << part << '\n' << page;
   }
 }

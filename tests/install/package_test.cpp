@@ -64,6 +64,15 @@ TEST_F(DebianPackage, for_developers_holds_library_and_headers) {
     EXPECT_TRUE(contains(listed, std::string(path) + "\n")) << path << " is not in\n" << listed;
 }
 
+TEST_F(DebianPackage, is_left_in_the_build_folder_not_where_cpack_is_called) {
+  text_of("cd " + folder(".") +
+          " && cpack -G DEB --config " BUILD_FOLDER
+          "/CPackConfig.cmake -D CPACK_DEBIAN_COMPRESSION_TYPE=gzip"
+          " -D CPACK_COMPONENTS_ALL=development");
+  EXPECT_TRUE(std::filesystem::is_empty(folder(".")));
+  EXPECT_TRUE(std::filesystem::exists(BUILD_FOLDER "/packages"));
+}
+
 TEST_F(DebianPackage, runs_from_where_it_is_unpacked) {
   pack("runtime");
   text_of("dpkg-deb --extract " + file("lidar-upsampling") + " " + folder("root"));

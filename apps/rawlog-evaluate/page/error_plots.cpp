@@ -51,12 +51,19 @@ void fit_to(Axis& axis, double low, double high) {
   axis.to = std::max(axis.to, high);
 }
 
+/// 3162 as 3.2k: two of them stand side by side below a plot.
+std::string short_number(double value) {
+  if (value < 1000) return fixed(value, 0);
+  const std::string text = fixed(value / 1000, 1);
+  return (text.substr(text.size() - 2) == ".0" ? text.substr(0, text.size() - 2) : text) + "k";
+}
+
 std::string label_of(const Bin& bin, const std::string& unit) {
   const int count = bin.rows[Row::ours].count;
   const std::string objects = "\n" + std::to_string(count) + (count == 1 ? " object" : " objects");
-  if (unit == "s") return fixed(500 * (bin.from + bin.to), 0) + " ms" + objects;
-  if (std::isinf(bin.to)) return "≥ " + fixed(bin.from, 0) + objects;
-  return fixed(bin.from, 0) + "–" + fixed(bin.to, 0) + objects;
+  if (unit == "s") return fixed(1e3 * bin.mean_key, 0) + " ms" + objects;
+  if (std::isinf(bin.to)) return "≥ " + short_number(bin.from) + objects;
+  return short_number(bin.from) + "–" + short_number(bin.to) + objects;
 }
 
 const char* kind_of(bool moving) { return moving ? "Moving" : "Static"; }

@@ -112,7 +112,8 @@ std::string data_uri(const std::string& mime_type, const std::vector<std::uint8_
 std::string to_html(const HtmlTable& table) {
   const std::vector<double> least = least_of_columns(table);
   std::string html = "<div class=\"block\"><h3>" + escaped(table.caption) +
-                     "</h3>\n<div class=\"wide\"><table><thead><tr><td></td>";
+                     "</h3>\n<div class=\"wide\"><table" +
+                     (table.rank_in_rows ? " class=\"across\"" : "") + "><thead><tr><td></td>";
   for (const std::string& column : table.columns)
     html += "<th scope=\"col\">" + escaped(column) + "</th>";
   html += "</tr></thead>\n<tbody>\n";

@@ -61,11 +61,12 @@ std::string blocks_of(const std::vector<HtmlTable>& tables) {
 
 std::string rows_html() {
   return paragraph(
-      "The rows: floor is the reference scan sampled twice, which no estimate beats; hold copies "
-      "the key scan, the last real one; ego moves it by the vehicle's motion; constant-velocity "
+      "The rows: hold copies the key scan, the last real one; ego moves it by the vehicle's "
+      "motion; constant-velocity "
       "also moves objects on as between the last two scans; paper is P3P on the picture for each "
       "object, as published; ours is the virtual scan in the log; oracle is the reference motion "
-      "itself. Less is better; the least of hold to ours is underlined.",
+      "itself; floor, in some protocols, is the reference scan sampled twice, which no estimate "
+      "beats. Less is better; the least of hold to ours is underlined.",
       "note");
 }
 

@@ -91,6 +91,10 @@ RunReport report_of(const Json& json) {
   report.num_extrapolated = json.at("virtual_scans_with_extrapolated_ego_motion").get<int>();
   report.object_status = json.at("object_status").get<std::map<std::string, int>>();
   report.warnings = json.at("warnings").get<std::map<std::string, int>>();
+  if (const auto machine = json.find("machine"); machine != json.end()) {
+    report.load = machine->at("load").get<double>();
+    report.cores = machine->at("cores").get<int>();
+  }
   for (const Json& stage : json.at("stages"))
     report.stages.push_back({stage.at("stage").get<std::string>(), stage.at("runs").get<int>(),
                              stage.at("median_ms").get<double>(), stage.at("p95_ms").get<double>(),

@@ -51,6 +51,8 @@ struct RunReport {
   std::string ego_motion, detector, carrier;
   double camera_time_offset_ms = 0;  ///< the log was densified with
   int num_scans = 0, num_images = 0, num_virtual = 0, num_extrapolated = 0;
+  double load = 0;  ///< of the machine at the end; 0: not known
+  int cores = 0;
   std::vector<StageFigures> stages;
   std::map<std::string, int> object_status, warnings;
   std::vector<TrackFigures> tracks;  ///< by id

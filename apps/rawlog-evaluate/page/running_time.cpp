@@ -136,6 +136,14 @@ std::string line_of(const std::string& name, double ours, std::optional<double> 
   return text + "\n";
 }
 
+std::string load_note(const RunReport& report) {
+  constexpr double kOwn = 1.5;  // of the cores, as reading and packing have threads of their own
+  if (report.load <= kOwn * report.cores) return {};
+  return "Other work shared the machine: its load was " + fixed(report.load, 1) + " on " +
+         std::to_string(report.cores) +
+         " cores, so that each stage took longer than it does alone.";
+}
+
 }  // namespace
 
 RunningTime running_time_of(const RunReport& report) {
@@ -175,7 +183,8 @@ std::string to_text(const RunningTime& time) {
 std::string running_time_html(const RunReport& report) {
   const RunningTime time = running_time_of(report);
   if (time.components.empty()) return paragraph("There are no virtual scans to time.");
-  return bars_html(time) +
+  const std::string note = load_note(report);
+  return (note.empty() ? "" : paragraph(note)) + bars_html(time) +
          side_by_side({to_html(components_table(time)), to_html(stages_table(report))});
 }
 

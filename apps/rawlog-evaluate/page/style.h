@@ -6,10 +6,15 @@ namespace lidar_upsampling {
 
 /// The page's style sheet.
 inline constexpr const char* kStyle = R"(
-:root { --ink: #1d2733; --soft: #5b6876; --line: #dde3e9; --ours: #fdf0e6; --link: #0b5c94; }
+:root { color-scheme: light dark; --ink: #1d2733; --soft: #5b6876; --line: #dde3e9; --head: #c6ced6; --ours: #fdf0e6;
+  --link: #0b5c94; --ground: #f6f8fa; --card: #fff; --warning: #fff8e1; }
+@media screen and (prefers-color-scheme: dark) {
+  :root { --ink: #dfe5eb; --soft: #9caab8; --line: #323e4a; --head: #4b5a69; --ours: #3b2a1d; --link: #7dbfec;
+    --ground: #11171d; --card: #1a222b; --warning: #332a12; }
+}
 * { box-sizing: border-box; }
 html { scroll-behavior: smooth; }
-body { margin: 0; background: #f6f8fa; color: var(--ink);
+body { margin: 0; background: var(--ground); color: var(--ink);
   font: 15px/1.5 system-ui, -apple-system, "Segoe UI", Roboto, "DejaVu Sans", Arial, sans-serif; }
 header, main { max-width: 1260px; margin: 0 auto; padding: 0 20px; }
 header { padding-top: 28px; }
@@ -18,9 +23,9 @@ h2 { font-size: 20px; margin: 0 0 12px; }
 h3 { font-size: 15px; margin: 0 0 6px; }
 p { margin: 0 0 10px; max-width: 80em; }
 a { color: var(--link); }
-.headline { font-size: 19px; line-height: 1.4; margin: 14px 0; padding: 12px 16px; background: #fff;
+.headline { font-size: 19px; line-height: 1.4; margin: 14px 0; padding: 12px 16px; background: var(--card);
   border-left: 5px solid #d55e00; border-radius: 4px; }
-.beaten { padding: 10px 16px; background: #fff8e1; border-left: 5px solid #e69f00; border-radius: 4px; }
+.beaten { padding: 10px 16px; background: var(--warning); border-left: 5px solid #e69f00; border-radius: 4px; }
 .beaten ul { margin: 4px 0 0; padding-left: 20px; columns: 300px; }
 .note { color: var(--soft); font-size: 13px; margin: 6px 0 0; }
 .note + .grid { margin-top: 12px; }
@@ -28,10 +33,10 @@ dl.facts { display: grid; grid-template-columns: max-content minmax(0, 1fr); gap
 dl.facts dt { color: var(--soft); }
 dl.facts dd { margin: 0; overflow-wrap: anywhere; }
 nav ul { display: flex; flex-wrap: wrap; gap: 6px; list-style: none; margin: 14px 0 20px; padding: 0; }
-nav a { display: block; padding: 4px 12px; background: #fff; border: 1px solid var(--line);
+nav a { display: block; padding: 4px 12px; background: var(--card); border: 1px solid var(--line);
   border-radius: 14px; text-decoration: none; font-size: 14px; }
 nav a:hover { border-color: var(--link); }
-section { background: #fff; border: 1px solid var(--line); border-radius: 8px; padding: 18px 20px 20px;
+section { background: var(--card); border: 1px solid var(--line); border-radius: 8px; padding: 18px 20px 20px;
   margin: 0 0 20px; }
 .grid { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(100%, 500px), 1fr));
   gap: 22px 32px; align-items: start; margin-bottom: 22px; }
@@ -41,12 +46,13 @@ section { background: #fff; border: 1px solid var(--line); border-radius: 8px; p
 .grid > .block, .block:last-child { margin-bottom: 0; }
 .wide { overflow-x: auto; }
 table { border-collapse: collapse; width: 100%; font-size: 14px; font-variant-numeric: tabular-nums; }
-th, td { padding: 4px 8px; text-align: right; border-bottom: 1px solid var(--line); white-space: nowrap; }
+th, td { padding: 4px 6px; text-align: right; border-bottom: 1px solid var(--line); white-space: nowrap; }
 tbody th { text-align: left; font-weight: 400; }
 tbody th:first-child, thead td:first-child { padding-left: 4px; }
 thead th { color: var(--soft); font-weight: 600; font-size: 13px; white-space: normal; vertical-align: bottom; }
-thead th, thead td { border-bottom: 2px solid #c6ced6; }
+thead th, thead td { border-bottom: 2px solid var(--head); }
 tr.ours { background: var(--ours); }
+.across th:last-child, .across td:last-child { position: sticky; right: 0; background: var(--ours); }
 tr.ours th, tr.sum th, tr.sum td { font-weight: 700; }
 tr.bound th, tr.bound td, tr.published th, tr.published td { color: var(--soft); }
 tr.published th, tr.published td { font-style: italic; }
@@ -54,7 +60,7 @@ td.best { font-weight: 700; text-decoration: underline; text-underline-offset: 3
 .mark { display: inline-block; width: 10px; height: 10px; border-radius: 2px; margin-right: 8px; }
 figure { margin: 0; }
 figcaption { font-weight: 600; margin-bottom: 4px; }
-figure svg { display: block; width: 100%; height: auto; min-width: 430px; }
+figure svg { display: block; width: 100%; height: auto; min-width: 430px; border-radius: 4px; }
 .objects { display: grid; grid-template-columns: repeat(auto-fill, minmax(min(100%, 540px), 1fr)); gap: 20px; }
 .object { border: 1px solid var(--line); border-radius: 6px; padding: 10px 12px 12px; min-width: 0; }
 .object h3 { display: flex; justify-content: space-between; gap: 10px; }
@@ -79,7 +85,8 @@ figure svg { display: block; width: 100%; height: auto; min-width: 430px; }
   section { padding: 14px 12px; }
   h1 { font-size: 21px; }
   .headline { font-size: 16px; }
-  th, td { padding: 4px 6px; }
+  th, td { padding: 4px 5px; }
+  figure svg { min-width: 0; }
   .bar { grid-template-columns: 84px 1fr 58px; }
 }
 @media print { body, section { background: #fff; } section { break-inside: avoid; } nav { display: none; } }
