@@ -6,7 +6,12 @@ cd "$(dirname "$0")/.."
 
 bash share/install-deps.sh --tests
 
-git ls-files '*.h' '*.cpp' | xargs clang-format --dry-run --Werror
+# Releases of clang-format differ in some lines; the sources are as that of Debian 12 leaves them.
+if [[ $(clang-format --version) == *"version 14."* ]]; then
+  git ls-files '*.h' '*.cpp' | xargs clang-format --dry-run --Werror
+else
+  echo "run: the format is not judged, which takes clang-format 14" >&2
+fi
 cmake --preset ci
 cmake --build --preset ci
 ctest --preset ci

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the lidar_upsampling authors
-#include <mrpt/maps/CPointsMapXYZI.h>
 #include <mrpt/maps/CSimplePointsMap.h>
 #include <mrpt/obs/CObservation3DRangeScan.h>
 #include <mrpt/obs/CObservationPointCloud.h>
@@ -12,6 +11,7 @@
 #include <vector>
 
 #include "fuzz/field_mutations.h"
+#include "lidar_upsampling/compat/point_fields.h"
 
 namespace lidar_upsampling::fuzz {
 namespace {
@@ -142,6 +142,20 @@ void spoil_own(mrpt::obs::CObservationRotatingScan& scan, Random& random, Sizes 
   }
 }
 
+void spoil_intensity(mrpt::obs::CObservationPointCloud& scan, const mrpt::maps::CPointsMap& map,
+                     Random& random) {
+  compat::PointFields fields = compat::point_fields(map);
+  if (fields.intensity.empty()) return;
+  fields.intensity[random.below(map.size())] = static_cast<float>(random.odd_number());
+  const auto spoilt = compat::make_points_map(map.size(), fields);
+  for (std::size_t i = 0; i < map.size(); ++i) {
+    float x = 0, y = 0, z = 0;
+    map.getPointFast(i, x, y, z);
+    spoilt->setPointFast(i, x, y, z);
+  }
+  scan.pointcloud = spoilt;
+}
+
 void spoil_own(mrpt::obs::CObservationPointCloud& scan, Random& random, Sizes) {
   auto* const map = dynamic_cast<mrpt::maps::CPointsMap*>(scan.pointcloud.get());
   if (map == nullptr || random.one_in(6)) {
@@ -151,10 +165,7 @@ void spoil_own(mrpt::obs::CObservationPointCloud& scan, Random& random, Sizes) {
   for (std::size_t i = 0; i < 1 + random.below(5) && map->size() > 0; ++i)
     map->setPointFast(random.below(map->size()), static_cast<float>(random.odd_number()),
                       static_cast<float>(random.odd_number()), 1.F);
-  auto* const with_intensity = dynamic_cast<mrpt::maps::CPointsMapXYZI*>(map);
-  if (with_intensity != nullptr && map->size() > 0)
-    with_intensity->setPointIntensity(random.below(map->size()),
-                                      static_cast<float>(random.odd_number()));
+  spoil_intensity(scan, *map, random);
 }
 
 template <typename Class>
