@@ -62,12 +62,11 @@ TEST(Sweep, start_direction_and_reference_are_settings) {
 
 TEST(Sweep, nothing_is_known_without_a_period_nor_asked_with_none) {
   EXPECT_TRUE(point_times(scan_of({0, 90}), by_azimuth(), 0).empty());
-  EXPECT_TRUE(point_times(scan_of({0, 90}), by_azimuth(), 3600).empty());
   EXPECT_TRUE(point_times(scan_of({0, 90}), SweepOptions(), kPeriod_s).empty());
 }
 
 TEST(Sweep, scans_too_far_apart_for_a_turn_tell_no_times) {
-  EXPECT_FALSE(point_times(scan_of({0, 90}), by_azimuth(), 10).empty());
+  EXPECT_FALSE(point_times(scan_of({0, 90}), by_azimuth(), 1).empty());
   constexpr double kYear_s = 3e7;
   EXPECT_TRUE(point_times(scan_of({0, 90}), by_azimuth(), kYear_s).empty());
 }
