@@ -97,7 +97,7 @@ std::string script_of(const Plot& plot, const std::string& file) {
   std::ostringstream script;
   script.precision(9);
   script
-      << "reset\nset terminal svg size 500,380 noenhanced font 'sans-serif,14' background 'white'\n"
+      << "reset\nset terminal svg size 540,390 noenhanced font 'sans-serif,14' background 'white'\n"
       << "set output " << quoted(file) << '\n'
       << "set key tmargin center horizontal Left reverse width -4 samplen 2\nset grid lc rgb "
          "'#dde3e9' lt "
