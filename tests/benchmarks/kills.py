@@ -112,11 +112,11 @@ def tools_of(options, work):
     yield "evaluate", [tool["rawlog-evaluate"], "--reference", work / "truth.rawlog", "-i", dense, "--no-paper",
                        "--json", "OUT/x.json", "--csv", "OUT/x.csv", "--html", "OUT/x.html"]
     yield "map-compare", [tool["rawlog-map-compare"], "--reference", work / "truth.rawlog", "-i", dense]
-    run([str(options.build / "tests/benchmarks/small_data_sets"), str(work)])
+    run([str(options.build / "tests/benchmarks/small_data_sets"), str(work / "sets")])
     labels = ["--boxes", "OUT/boxes.csv", "--truth-objects", "OUT/x_objects.csv", "--overwrite", "-o", "OUT/x.rawlog"]
-    yield "kitti", [tool["kitti2rawlog"], "--drive", options.kitti or work / "kitti/drive", *labels]
-    yield "argoverse", [tool["argoverse2rawlog"], "--log", options.argoverse or work / "argoverse", *labels]
-    yield "dgp", [tool["dgp2rawlog"], "--scene", options.dgp or work / "dgp", *labels]
+    yield "kitti", [tool["kitti2rawlog"], "--drive", options.kitti or work / "sets/kitti/drive", *labels]
+    yield "argoverse", [tool["argoverse2rawlog"], "--log", options.argoverse or work / "sets/argoverse", *labels]
+    yield "dgp", [tool["dgp2rawlog"], "--scene", options.dgp or work / "sets/dgp", *labels]
 
 
 def main():

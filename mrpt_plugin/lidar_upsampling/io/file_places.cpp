@@ -32,8 +32,10 @@ bool is_one_file(const std::string& a, const std::string& b) {
   return fs::equivalent(a, b, error) && !error;
 }
 
-std::string megabytes(double bytes) {
-  return std::to_string(static_cast<std::uint64_t>(bytes / 1e6)) + " MB";
+std::string amount(double bytes) {
+  const bool is_little = bytes < 1e7;
+  return std::to_string(static_cast<std::uint64_t>(bytes / (is_little ? 1e3 : 1e6))) +
+         (is_little ? " kB" : " MB");
 }
 
 }  // namespace
@@ -84,8 +86,8 @@ void check_room(const FileUse& output, double least) {
   const auto blocks = geteuid() == 0 ? disk.f_bfree : disk.f_bavail;
   const double free = static_cast<double>(blocks) * static_cast<double>(disk.f_frsize);
   if (free >= least) return;
-  throw std::runtime_error(output.told_by + " " + output.path + ": " + megabytes(free) +
-                           " are free there, and it takes more than " + megabytes(least));
+  throw std::runtime_error(output.told_by + " " + output.path + ": " + amount(free) +
+                           " are free there, and it takes more than " + amount(least));
 }
 
 void check_room(const FileUse& output, const std::string& input, bool as_it_is, double share) {
