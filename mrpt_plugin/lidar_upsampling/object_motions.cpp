@@ -13,7 +13,7 @@
 namespace lidar_upsampling {
 namespace {
 
-constexpr double kLeast_s = 0.005;  // an image before the object's own sight is taken for this
+constexpr double kLeast_s = 0.005;  // no motion is measured in less
 
 // An object on a picture.
 struct Appearance {
@@ -129,6 +129,7 @@ std::vector<ObjectMotion> estimate_motions(const std::vector<ImageResult>& group
   tbb::parallel_for(std::size_t{0}, motions.size(), [&](std::size_t i) {
     const ScanObject& object = objects.object(i);
     ObjectTrack& track = store.tracks[objects.track_of[i]];
+    // An image may come before the object's own sight.
     const double dt = std::max(kLeast_s, seconds_between(track.stamp, newest.instant));
     const AllSights sights = sights_of(i, group, dt);
     const MotionQuestion question{shifted(track.stamp, dt), newest.ego.T_to_from,

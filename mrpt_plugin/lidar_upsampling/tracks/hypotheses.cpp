@@ -98,10 +98,8 @@ std::vector<Way> ways_of(const ObjectTrack& track, const MotionQuestion& questio
   };
   if (track.ahead)
     return {way(1, at_instant(track.state), track.expected_at(question.instant, options.noise))};
-  constexpr double kWorthAFit = 1e-3;  // of probability
   std::vector<Way> ways;
   for (const Course& course : courses_before_images(track, question.ego_velocity, options.noise)) {
-    if (course.probability < kWorthAFit) continue;
     const TrackState now = at_instant(course.from);
     ways.push_back(way(course.probability, now, now));
   }

@@ -16,6 +16,8 @@
 namespace lidar_upsampling {
 namespace {
 
+constexpr double kWorthAFit = 1e-3;  // of probability: each way costs a fit per image
+
 /// Whether the covariance no longer says where to look: it is as wide as 0.4 s after the first
 /// sight of an object that may go anywhere.
 bool is_lost(const ObjectTrack& track, Stamp now, const TrackOptions& options) {
@@ -62,7 +64,6 @@ void see_anew(ObjectTrack& track, const ScanObject& object, std::shared_ptr<cons
 ObjectTrack new_track(const ScanObject& object, const TrackedScan& scan,
                       const std::vector<ObjectTrack>& tracks, std::size_t num_known,
                       const TrackOptions& options) {
-  constexpr double kWorthAFit = 1e-3;  // of probability: each way costs a fit per image
   const TrackState any = new_track_state(shifted(scan.scan.stamp, object.time_s), options.noise);
   const Whole whole = whole_of(object, scan, tracks, num_known, options);
   const double moves = whole.probability + (1 - whole.probability) * options.moving_prior;
@@ -126,8 +127,12 @@ std::vector<int> take_up_scan(TrackStore& store, std::vector<ScanObject>& object
   return track_of;
 }
 
+bool is_mover(const ObjectTrack& track, const TrackOptions& options) {
+  return track.latest_log_odds > std::log(options.loss_ratio);
+}
+
 bool is_predictable(const ObjectTrack& track, const TrackState& now, const TrackOptions& options) {
-  return track.latest_log_odds > std::log(options.loss_ratio) &&
+  return is_mover(track, options) &&
          now.covariance.topLeftCorner<2, 2>().trace() < 2 * kReach_m * kReach_m;
 }
 
@@ -181,6 +186,7 @@ std::vector<Course> courses_before_images(const ObjectTrack& track,
   const double share = speed * speed / (speed * speed + kSlow_m_s * kSlow_m_s) / 3;
   std::vector<Course> courses = track.beginnings;
   for (Course& course : courses) course.probability *= 1 - share;
+  if (share / 2 < kWorthAFit) return courses;
   MotionNoise as_fast = noise;
   as_fast.unknown_speed_sigma = kAny_m_s + kShareOfSpeed * speed;
   TrackState traffic = along_road(new_track_state(track.stamp, noise),

@@ -137,6 +137,9 @@ std::vector<int> take_up_scan(TrackStore& store, std::vector<ScanObject>& object
 /// How far an object's points lie from where they are predicted, m: another scan meets others.
 constexpr float kReach_m = 0.3F;
 
+/// Whether it moves, by all that is known, for certain enough to be told so.
+[[nodiscard]] bool is_mover(const ObjectTrack& track, const TrackOptions& options);
+
 /// @brief Whether it moves, and is known to lie within reach of a place.
 /// @param now its state as predicted.
 [[nodiscard]] bool is_predictable(const ObjectTrack& track, const TrackState& now,

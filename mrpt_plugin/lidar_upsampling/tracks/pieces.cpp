@@ -78,9 +78,6 @@ void join_pieces(const TrackStore& store, const TrackedScan& scan, const TrackOp
                  std::vector<ScanObject>& objects, std::vector<int>& track_of) {
   constexpr double kMost = 0.5;
   const std::vector<int> known = track_of;
-  const auto moves = [&](int track) {
-    return track >= 0 && store.tracks[track].latest_log_odds > std::log(options.loss_ratio);
-  };
   for (std::size_t i = 0; i < known.size(); ++i) {
     if (known[i] < 0) continue;
     const ObjectTrack& track = store.tracks[known[i]];
@@ -88,7 +85,8 @@ void join_pieces(const TrackStore& store, const TrackedScan& scan, const TrackOp
     if (!is_predictable(track, now, options)) continue;
     std::optional<PointIndex> places;
     for (std::size_t j = 0; j < objects.size(); ++j) {
-      if (moves(known[j]) || objects[j].points.empty() || are_parted(track, objects[j]) ||
+      if ((known[j] >= 0 && is_mover(store.tracks[known[j]], options)) ||
+          objects[j].points.empty() || are_parted(track, objects[j]) ||
           is_far(track, now, objects[j], scan.T_rest_lidar))
         continue;
       if (!places) places.emplace(points_by(track, now, scan.T_rest_lidar));
