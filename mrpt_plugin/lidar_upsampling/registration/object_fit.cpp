@@ -2,11 +2,11 @@
 // Copyright (c) 2026, the lidar_upsampling authors
 #include "lidar_upsampling/registration/object_fit.h"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
+#include "lidar_upsampling/decompositions.h"
 #include "lidar_upsampling/registration/nearest_point.h"
 #include "lidar_upsampling/se3.h"
 
@@ -172,8 +172,8 @@ Sampling sampling_under(const ObjectFit& fit, const Pose& T_target_object) {
     faces += across;
   }
   if (spacings.empty()) return {};
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(faces);
-  return {median(std::move(spacings)), all.inverse() * along, solver.eigenvectors().col(0)};
+  return {median(std::move(spacings)), all.inverse() * along,
+          symmetric_eigen<2>(faces).vectors.col(0)};
 }
 
 double overlap_of(const ObjectFit& fit, const Pose& T_target_object) {
@@ -208,7 +208,7 @@ Fitted converge(const ObjectFit& problem, const Pose& guess, double stop, double
     Twist b = Twist::Zero();
     sums.add_to(H, b);
     add_level(problem, T, H, b);
-    const Twist step = H.ldlt().solve(b);
+    const Twist step = solved<6, 1>(H, b);
     if (!step.allFinite()) {
       break;
     }

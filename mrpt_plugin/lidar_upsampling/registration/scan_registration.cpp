@@ -6,11 +6,10 @@
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_invoke.h>
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
+#include "lidar_upsampling/decompositions.h"
 #include "lidar_upsampling/registration/nearest_point.h"
 #include "lidar_upsampling/registration/surface.h"
 #include "lidar_upsampling/registration/voxel_grid.h"
@@ -101,12 +100,12 @@ NormalEquations accumulate(const std::vector<Match>& matches, double scale, doub
 /// The covariance, or none if some direction is free.
 std::optional<Matrix6d> covariance_of(const Matrix6d& H, int num_matches, double rmse) {
   const double variance = std::max(1e-4, rmse * rmse);
-  const Eigen::SelfAdjointEigenSolver<Matrix6d> solver(H);
-  if (!(solver.eigenvalues()[0] > kMinHold * num_matches)) {
+  const SymmetricEigen<6> eigen = symmetric_eigen<6>(H);
+  if (!(eigen.values[0] > kMinHold * num_matches)) {
     return std::nullopt;
   }
-  return variance * solver.eigenvectors() * solver.eigenvalues().cwiseInverse().asDiagonal() *
-         solver.eigenvectors().transpose();
+  return variance * eigen.vectors * eigen.values.cwiseInverse().asDiagonal() *
+         eigen.vectors.transpose();
 }
 
 std::optional<Registration> iterate(const std::vector<Eigen::Vector3f>& source,
@@ -122,7 +121,7 @@ std::optional<Registration> iterate(const std::vector<Eigen::Vector3f>& source,
     if (sum.num_matches < kMinCorrespondences) {
       return std::nullopt;
     }
-    const Twist step = sum.H.ldlt().solve(sum.b);
+    const Twist step = solved<6, 1>(sum.H, sum.b);
     if (!step.allFinite()) {
       return std::nullopt;
     }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lidar_upsampling/decompositions.h"
 #include "lidar_upsampling/tracks/log_odds.h"
 #include "lidar_upsampling/tracks/scan_factor.h"
 #include "lidar_upsampling/units.h"
@@ -189,7 +190,7 @@ Heard hear(Stamp stamp, const ImageFactor& image, const MotionQuestion& question
 
 /// What the picture's own error leaves of a fit that holds it.
 MotionFit without(const Matrix6d& error, const MotionExpected& expected, MotionFit fit) {
-  const Matrix6d K = Matrix6d::Identity() - error * expected.covariance.inverse();
+  const Matrix6d K = Matrix6d::Identity() - error * inverse(expected.covariance);
   fit.mean = expected.mean + K * (fit.mean - expected.mean);
   fit.covariance = Matrix6d(K * fit.covariance * K.transpose() + K * error);
   return fit;

@@ -2,11 +2,12 @@
 // Copyright (c) 2026, the lidar_upsampling authors
 #include "lidar_upsampling/tracks/motion_estimate.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>
+
+#include "lidar_upsampling/decompositions.h"
 
 namespace lidar_upsampling {
 namespace {
@@ -117,7 +118,7 @@ Twist descend(const Problem& problem, Twist motion, double& cost) {
   cost = cost_of(problem, motion);
   for (int i = 0; i < kMaxIterations; ++i) {
     const NormalEquations equations = linearised(problem, motion);
-    Twist step = equations.H.ldlt().solve(equations.b);
+    Twist step = solved<6, 1>(equations.H, equations.b);
     const double gain_hoped = step.dot(equations.b);
     double better = cost_of(problem, motion + step);
     for (int halved = 0; halved < 4 && !(better < cost); ++halved) {
@@ -156,7 +157,7 @@ void ImageFactor::add(const ImageView& view, const std::vector<Observation>& see
 MotionFit fit_motion(const ImageFactor& image, const Eigen::Vector3d& centroid,
                      const MotionExpected& prior, const std::vector<Twist>& starts, double sigma_px,
                      const PointNoise& noise) {
-  const Problem problem{image, centroid, prior, prior.covariance.inverse(), sigma_px, noise};
+  const Problem problem{image, centroid, prior, inverse(prior.covariance), sigma_px, noise};
   MotionFit fit;
   fit.cost = std::numeric_limits<double>::infinity();
   for (const Twist& start : starts) {
@@ -167,8 +168,8 @@ MotionFit fit_motion(const ImageFactor& image, const Eigen::Vector3d& centroid,
     fit.mean = mode;
   }
   const Matrix6d H = linearised(problem, fit.mean).H;
-  fit.covariance = H.inverse();
-  fit.log_evidence = -0.5 * (fit.cost + std::log(Matrix6d(H * prior.covariance).determinant()));
+  fit.covariance = inverse(H);
+  fit.log_evidence = -0.5 * (fit.cost + std::log(determinant(H * prior.covariance)));
   count_inliers(problem, fit);
   return fit;
 }

@@ -2,7 +2,6 @@
 // Copyright (c) 2026, the lidar_upsampling authors
 #include "lidar_upsampling/tracks/scan_factor.h"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
@@ -10,6 +9,7 @@
 #include <numeric>
 #include <optional>
 
+#include "lidar_upsampling/decompositions.h"
 #include "lidar_upsampling/registration/surface.h"
 #include "lidar_upsampling/tracks/free_space.h"
 #include "lidar_upsampling/tracks/log_odds.h"
@@ -120,9 +120,8 @@ void join_ends(const ObjectTrack& track, const TwoSights& sights, const TrackedS
   constexpr double kEnd_m = 0.1;  // how well two scans show the same end
   const double sigma = std::hypot(kEnd_m, 0.5 * longer);
   if (sights.scans.seen_before == nullptr) return;
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(
-      step.covariance.topLeftCorner<2, 2>());
-  const Eigen::Vector2d loosest = solver.eigenvectors().col(1);
+  const Eigen::Vector2d loosest =
+      symmetric_eigen<2>(step.covariance.topLeftCorner<2, 2>()).vectors.col(1);
   for (const Eigen::Vector2d& ahead : {loosest, Eigen::Vector2d(-loosest)}) {
     const auto before = end_of({sights.scans.before.points(), *sights.scans.seen_before},
                                track.T_rest_lidar, sights.axes_before.transpose() * ahead, ahead);

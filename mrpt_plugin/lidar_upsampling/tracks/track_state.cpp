@@ -2,10 +2,11 @@
 // Copyright (c) 2026, the lidar_upsampling authors
 #include "lidar_upsampling/tracks/track_state.h"
 
-#include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+
+#include "lidar_upsampling/decompositions.h"
 
 namespace lidar_upsampling {
 namespace {
@@ -72,7 +73,7 @@ Matrix8d process_noise(double dt, const MotionNoise& noise) {
 }
 
 Eigen::Matrix<double, 8, 3> gain(const TrackState& state, const Eigen::Matrix3d& of_step) {
-  return of_step.ldlt().solve(state.covariance.topRows<3>()).transpose();
+  return solved<3, 8>(of_step, state.covariance.topRows<3>()).transpose();
 }
 
 }  // namespace
@@ -127,7 +128,7 @@ TrackState smoothed(const TrackState& state, const TrackState& later, const Moti
   if (dt <= 0) return later;
   const TrackState forward = predicted(state, later.stamp, noise);
   const Matrix8d across = transition(state.mean, dt, noise).by_state * state.covariance;
-  const Matrix8d K = forward.covariance.ldlt().solve(across).transpose();
+  const Matrix8d K = solved<8, 8>(forward.covariance, across).transpose();
   TrackState result = state;
   result.mean += K * (later.mean - forward.mean);
   result.covariance += K * (later.covariance - forward.covariance) * K.transpose();
@@ -137,7 +138,7 @@ TrackState smoothed(const TrackState& state, const TrackState& later, const Moti
 TrackState with_velocity(const TrackState& state, const TrackState& known) {
   const Eigen::Matrix<double, 5, 5> of_velocity = state.covariance.bottomRightCorner<5, 5>();
   const Eigen::Matrix<double, 8, 5> K =
-      of_velocity.ldlt().solve(state.covariance.bottomRows<5>()).transpose();
+      solved<5, 8>(of_velocity, state.covariance.bottomRows<5>()).transpose();
   TrackState result = state;
   result.mean += K * (known.mean - state.mean).tail<5>();
   result.covariance +=

@@ -2,13 +2,13 @@
 // Copyright (c) 2026, the lidar_upsampling authors
 #include "lidar_upsampling/vision/absolute_pose.h"
 
-#include <Eigen/Cholesky>
 #include <array>
 #include <limits>
 #include <opencv2/calib3d.hpp>
 #include <vector>
 
 #include "lidar_upsampling/checks.h"
+#include "lidar_upsampling/decompositions.h"
 #include "lidar_upsampling/robust/ransac.h"
 #include "lidar_upsampling/se3.h"
 #include "lidar_upsampling/types.h"
@@ -99,7 +99,7 @@ class MlesacPose {
         ++count;
       }
       if (count < 4) return;
-      const Twist increment = normal.ldlt().solve(right);
+      const Twist increment = solved<6, 1>(normal, right);
       if (!increment.allFinite()) return;
       T_camera_source = incremented(increment, T_camera_source);
     }

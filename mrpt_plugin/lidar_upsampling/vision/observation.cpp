@@ -2,9 +2,9 @@
 // Copyright (c) 2026, the lidar_upsampling authors
 #include "lidar_upsampling/vision/observation.h"
 
-#include <Eigen/Eigenvalues>
 #include <limits>
 
+#include "lidar_upsampling/decompositions.h"
 #include "lidar_upsampling/se3.h"
 #include "lidar_upsampling/vision/distortion.h"
 #include "lidar_upsampling/vision/projection.h"
@@ -42,9 +42,11 @@ void weigh_by_texture(std::vector<Observation>& observations,
     const Eigen::Matrix2d in_sigmas =
         Eigen::Matrix2d::Identity() +
         correspondences[observation.index].covariance / (sigma_px * sigma_px);
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(in_sigmas);
-    observation.pixel_by_normalised =
-        solver.operatorInverseSqrt() * observation.pixel_by_normalised;
+    const SymmetricEigen<2> eigen = symmetric_eigen<2>(in_sigmas);
+    const Eigen::Matrix2d inverse_root = eigen.vectors *
+                                         eigen.values.cwiseInverse().cwiseSqrt().asDiagonal() *
+                                         eigen.vectors.transpose();
+    observation.pixel_by_normalised = inverse_root * observation.pixel_by_normalised;
   }
 }
 

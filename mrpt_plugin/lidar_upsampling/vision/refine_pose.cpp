@@ -5,10 +5,10 @@
 #include <ceres/loss_function.h>
 #include <ceres/tiny_solver.h>
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <cmath>
 
+#include "lidar_upsampling/decompositions.h"
 #include "lidar_upsampling/se3.h"
 #include "lidar_upsampling/vision/observation.h"
 
@@ -156,11 +156,9 @@ Matrix6d covariance(const std::vector<const Observation*>& inliers, const Pose& 
   information /= sq_sigma * options.points_per_observation;
   if (prior) information += prior->sqrt_information.transpose() * prior->sqrt_information;
   // What nothing determines gets a huge variance, not an infinite or negative one.
-  const Eigen::SelfAdjointEigenSolver<Matrix6d> solver(information);
-  const Twist eigenvalues =
-      solver.eigenvalues().cwiseMax(1e-12 * solver.eigenvalues()[5]).cwiseMax(1e-12);
-  return solver.eigenvectors() * eigenvalues.cwiseInverse().asDiagonal() *
-         solver.eigenvectors().transpose();
+  const SymmetricEigen<6> eigen = symmetric_eigen<6>(information);
+  const Twist eigenvalues = eigen.values.cwiseMax(1e-12 * eigen.values[5]).cwiseMax(1e-12);
+  return eigen.vectors * eigenvalues.cwiseInverse().asDiagonal() * eigen.vectors.transpose();
 }
 
 /// Fits the pose to what lies near it, chosen anew until it no longer changes.
