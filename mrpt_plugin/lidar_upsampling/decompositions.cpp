@@ -5,6 +5,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
+#include <Eigen/QR>
 
 namespace lidar_upsampling {
 
@@ -12,6 +13,11 @@ template <int n, int m>
 Eigen::Matrix<double, n, m> solved(const Eigen::Matrix<double, n, n>& A,
                                    const Eigen::Matrix<double, n, m>& b) {
   return A.ldlt().solve(b);
+}
+
+Eigen::Matrix<double, 6, 6> least_norm_solved(const Eigen::Matrix<double, 6, 6>& A,
+                                              const Eigen::Matrix<double, 6, 6>& B) {
+  return A.completeOrthogonalDecomposition().solve(B);
 }
 
 template <int n>
@@ -24,6 +30,8 @@ Eigen::Matrix<double, 6, 6> inverse(const Eigen::Matrix<double, 6, 6>& A) { retu
 
 double determinant(const Eigen::Matrix<double, 6, 6>& A) { return A.determinant(); }
 
+template Eigen::Matrix<double, 3, 1> solved(const Eigen::Matrix<double, 3, 3>&,
+                                            const Eigen::Matrix<double, 3, 1>&);
 template Eigen::Matrix<double, 3, 8> solved(const Eigen::Matrix<double, 3, 3>&,
                                             const Eigen::Matrix<double, 3, 8>&);
 template Eigen::Matrix<double, 5, 8> solved(const Eigen::Matrix<double, 5, 5>&,

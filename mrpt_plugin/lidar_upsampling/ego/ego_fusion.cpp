@@ -2,8 +2,9 @@
 // Copyright (c) 2026, the lidar_upsampling authors
 #include "lidar_upsampling/ego/ego_fusion.h"
 
-#include <Eigen/QR>
 #include <algorithm>
+
+#include "lidar_upsampling/decompositions.h"
 
 namespace lidar_upsampling {
 namespace {
@@ -47,10 +48,8 @@ double likely_variance(const PoseNoise& noise, const Twist& usual, int first_axi
 EgoStep fused(const EgoStep& a, const EgoStep& b) {
   EgoStep result = a;
   if (a.covariance.isZero(0)) return result;
-  const Matrix6d gain = (a.covariance + b.covariance)
-                            .completeOrthogonalDecomposition()
-                            .solve(a.covariance)
-                            .transpose();  // A (A + B)^-1: both are symmetric
+  // A (A + B)^-1: both are symmetric.
+  const Matrix6d gain = least_norm_solved(a.covariance + b.covariance, a.covariance).transpose();
   const Matrix6d rest = Matrix6d::Identity() - gain;
   const Twist difference = log_se3(b.T_to_from * a.T_to_from.inverse());
   result.T_to_from = renormalized(exp_se3(Twist(gain * difference)) * a.T_to_from);

@@ -7,6 +7,7 @@
 #include <opencv2/imgproc.hpp>
 #include <utility>
 
+#include "lidar_upsampling/decompositions.h"
 #include "lidar_upsampling/registration/point_index.h"
 #include "lidar_upsampling/units.h"
 #include "lidar_upsampling/vision/projection.h"
@@ -142,13 +143,14 @@ std::optional<double> peak_of(const std::vector<double>& sum, int reach) {
   const int size = static_cast<int>(sum.size());
   const int top = static_cast<int>(std::max_element(sum.begin(), sum.end()) - sum.begin());
   if (top < reach || top >= size - reach) return {};
-  Eigen::MatrixX3d A(2 * reach + 1, 3);
-  Eigen::VectorXd b(2 * reach + 1);
+  Eigen::Matrix3d A = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d b = Eigen::Vector3d::Zero();
   for (int i = -reach; i <= reach; ++i) {
-    A.row(i + reach) << 1, i, i * i;
-    b[i + reach] = sum[top + i];
+    const Eigen::Vector3d powers(1, i, i * i);
+    A += powers * powers.transpose();
+    b += powers * sum[top + i];
   }
-  const Eigen::Vector3d parabola = A.colPivHouseholderQr().solve(b);
+  const Eigen::Vector3d parabola = solved<3, 1>(A, b);
   if (!(parabola[2] < 0)) return {};
   return top + std::clamp(-0.5 * parabola[1] / parabola[2], -1. * reach, 1. * reach);
 }
