@@ -66,8 +66,7 @@ class Walk {
     try {
       paper_.emplace(job.paper, without_virtual(input, result.virtual_label), paper_report_);
       if (labels_)
-        paper_report_.rows = std::make_shared<ReportRows>(
-            (std::filesystem::temp_directory_path() / "rows").string());
+        paper_report_.rows = std::make_shared<ReportRows>(scratch_place(job.scratch_beside));
     } catch (const std::exception& error) {
       result_.notes.push_back(std::string("no row `paper`: ") + error.what());
     }
@@ -256,6 +255,7 @@ LogResult evaluate_log(const EvaluationJob& job, const std::function<void(double
       });
   take_poses_from_file(job.paper.config, job.paper.rig, input);
   LogResult result;
+  result.scans = ScanResults(job.scratch_beside);
   result.input = job.input;
   result.reference = job.reference;
   result.label = find_label(input, job.label);
