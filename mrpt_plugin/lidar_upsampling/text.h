@@ -42,6 +42,19 @@ namespace lidar_upsampling {
   return used == text.size() && std::isfinite(value) ? std::make_optional(value) : std::nullopt;
 }
 
+/// @brief A line that can be read: of a very long one, as what quotes a file without line ends, its
+/// begin and its end. Letters of UTF-8 stay whole.
+[[nodiscard]] inline std::string shortened(const std::string& line, std::size_t most = 2000) {
+  if (line.size() <= most) return line;
+  const auto is_inside_letter = [&](std::size_t at) {
+    return (static_cast<unsigned char>(line[at]) & 0xC0U) == 0x80U;
+  };
+  std::size_t head = 3 * most / 4, tail = line.size() - most / 4;
+  while (head > 0 && is_inside_letter(head)) --head;
+  while (tail < line.size() && is_inside_letter(tail)) ++tail;
+  return line.substr(0, head) + " ... " + line.substr(tail);
+}
+
 /// @brief What an exception says, in one line: MRPT's own carry a call stack behind the message.
 [[nodiscard]] inline std::string one_line(const std::exception& error) {
   std::string_view text = error.what();
@@ -52,8 +65,7 @@ namespace lidar_upsampling {
     text.remove_prefix(at + kMark.size());
   }
   text.remove_prefix(std::min(text.size(), text.find_first_not_of(" \t\n")));
-  text = text.substr(0, text.find('\n'));
-  return std::string(text);
+  return shortened(std::string(text.substr(0, text.find('\n'))));
 }
 
 }  // namespace lidar_upsampling
