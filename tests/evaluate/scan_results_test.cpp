@@ -51,8 +51,9 @@ void expect_same(const ObjectResult& object, const ObjectResult& expected) {
             expected.object.motion.T_lidar_t_lidar_k.matrix());
   EXPECT_EQ(object.num_points, expected.num_points);
   ASSERT_EQ(object.estimates[Row::ours].has_value(), expected.estimates[Row::ours].has_value());
-  if (object.estimates[Row::ours])
+  if (object.estimates[Row::ours]) {
     EXPECT_EQ(object.estimates[Row::ours]->matrix(), expected.estimates[Row::ours]->matrix());
+  }
   EXPECT_EQ(object.errors[Row::ours]->position_m, expected.errors[Row::ours]->position_m);
   EXPECT_EQ(object.errors[Row::ego]->depth_share, expected.errors[Row::ego]->depth_share);
   EXPECT_FALSE(object.errors[Row::hold]);

@@ -22,6 +22,8 @@ namespace {
 
 using mrpt::obs::CObservation;
 
+constexpr std::size_t kStampsForRate = 10000;  // all of an hour would be megabytes
+
 StreamKind kind_of(const CObservation& observation) {
   if (is_lidar_scan(observation)) return StreamKind::lidar;
   if (IS_DERIVED(observation, mrpt::obs::CObservationImage)) return StreamKind::camera;
@@ -89,7 +91,9 @@ void LogIndexer::add_observation(const CObservation& observation) {
   const auto* const image = dynamic_cast<const mrpt::obs::CObservationImage*>(&observation);
   if (image != nullptr && !stream.calibrated()) stream.camera = camera_of(*image);
   if (observation.timestamp == INVALID_TIMESTAMP) return;
-  stream.stamps.push_back(observation.timestamp);
+  const bool is_seen = stream.kind == StreamKind::lidar || stream.kind == StreamKind::camera;
+  if (is_seen || stream.stamps.size() < kStampsForRate)
+    stream.stamps.push_back(observation.timestamp);
   if (with_ego_) ego_.add_observation(observation);
 }
 
@@ -141,8 +145,8 @@ LogIndex index_log(const LogFile& log, const std::function<void(double)>& progre
   return indexed(LogIndexer(log.path), log, progress);
 }
 
-LogIndex index_streams(const LogFile& log) {
-  return indexed(LogIndexer(log.path, false), log, nullptr);
+LogIndex index_streams(const LogFile& log, const std::function<void(double)>& progress) {
+  return indexed(LogIndexer(log.path, false), log, progress);
 }
 
 std::string labels_of(const LogIndex& index) {
