@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <exception>
+#include <istream>
 #include <optional>
 #include <sstream>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -28,6 +30,20 @@ namespace lidar_upsampling {
   for (std::string field; std::getline(stream, field, ',');)
     fields.push_back(trimmed(field, blanks));
   return fields;
+}
+
+/// @brief A text file's next line, as by std::getline; a file of another kind is not read to its
+/// end first. @throw std::invalid_argument it is no text, or longer than any line of a table.
+inline bool next_line(std::istream& file, std::string& line) {
+  constexpr std::size_t kMostBytes = 1U << 16U;
+  line.clear();
+  for (char c = 0; file.get(c);) {
+    if (c == '\n') return true;
+    if (c == '\0' || line.size() == kMostBytes)
+      throw std::invalid_argument("this is no table in text");
+    line.push_back(c);
+  }
+  return !line.empty();
 }
 
 /// The finite number that the text is from end to end; none: it is something else.

@@ -24,31 +24,22 @@ struct Line {
   Words words;
 };
 
-// As std::getline, but a file of another kind is not read to its end first.
-bool next_line(std::istream& file, const std::string& path, std::string& text) {
-  constexpr std::size_t kMostBytes = 1U << 16U;
-  text.clear();
-  std::streambuf& bytes = *file.rdbuf();
-  for (int c = bytes.sbumpc(); c != '\n'; c = bytes.sbumpc()) {
-    if (c == std::char_traits<char>::eof()) return !text.empty();
-    if (c == '\0' || text.size() == kMostBytes)
-      throw std::runtime_error(path + ": this is no text with a pose in each line");
-    text.push_back(static_cast<char>(c));
-  }
-  return true;
-}
-
 // The lines that hold something, without comments.
 std::vector<Line> read_lines(const std::string& path) {
   std::ifstream file(path);
   if (!file) throw std::runtime_error(path + ": cannot read this file of poses");
   std::vector<Line> lines;
   std::string text;
-  for (std::size_t number = 1; next_line(file, path, text); ++number) {
-    std::istringstream stream(text.substr(0, text.find('#')));
-    Line line{number, {}};
-    for (std::string word; stream >> word;) line.words.push_back(word);
-    if (!line.words.empty()) lines.push_back(std::move(line));
+  std::size_t number = 1;
+  try {
+    for (; next_line(file, text); ++number) {
+      std::istringstream stream(text.substr(0, text.find('#')));
+      Line line{number, {}};
+      for (std::string word; stream >> word;) line.words.push_back(word);
+      if (!line.words.empty()) lines.push_back(std::move(line));
+    }
+  } catch (const std::invalid_argument& error) {
+    throw std::runtime_error(path + ", line " + std::to_string(number) + ": " + error.what());
   }
   if (lines.empty()) throw std::runtime_error(path + ": holds no poses");
   return lines;
