@@ -276,6 +276,9 @@ LogResult evaluate_log(const EvaluationJob& job, const std::function<void(double
   if (input.corruption) result.notes.push_back(*input.corruption);
   if (reference && reference->corruption) result.notes.push_back(*reference->corruption);
   Walk walk(job, input, reference ? &*reference : nullptr, result);
+  input = LogIndex();  // of an hour some megabytes
+  const bool by_labels_alone = !reference;
+  reference.reset();
   const bool looks_ahead = goes_by && job.paper_row;
   LogAhead log({job.input, job.accept_truncated}, looks_ahead ? span_ahead_s(job.paper.config) : 0);
   for (;;) {
@@ -289,7 +292,7 @@ LogResult evaluate_log(const EvaluationJob& job, const std::function<void(double
     progress(log.progress());
   }
   walk.finish();
-  if (result.scans.empty() && reference)
+  if (result.scans.empty() && !by_labels_alone)
     throw std::runtime_error(job.reference + ": none of its scans lies within " +
                              std::to_string(job.tolerance_s * 1e3) + " ms of one of the " +
                              std::to_string(result.num_virtual) + " virtual scans of " + job.input);

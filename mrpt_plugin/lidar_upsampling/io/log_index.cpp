@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <utility>
 
 #include "lidar_upsampling/io/carriers.h"
 #include "lidar_upsampling/io/file_places.h"
@@ -114,11 +115,21 @@ void LogIndexer::add(const mrpt::serialization::CSerializable& object) {
 
 LogIndex LogIndexer::index() const {
   LogIndex index = index_;
+  complete(index);
+  return index;
+}
+
+LogIndex LogIndexer::take_index() {
+  LogIndex index = std::exchange(index_, {});
+  complete(index);
+  return index;
+}
+
+void LogIndexer::complete(LogIndex& index) const {
   for (StreamInfo& stream : index.streams) stream.median_period_s = median_period(stream.stamps);
   index.poses = ego_.poses();
   index.odometry = ego_.odometry();
   index.gnss = ego_.gnss();
-  return index;
 }
 
 namespace {
@@ -134,7 +145,7 @@ LogIndex indexed(LogIndexer indexer, const LogFile& log,
     indexer.add(*entry->object);
     if (progress) progress(reader.progress());
   }
-  LogIndex index = indexer.index();
+  LogIndex index = indexer.take_index();
   index.corruption = reader.damage();
   return index;
 }

@@ -64,10 +64,13 @@ class LogIndexer {
   [[nodiscard]] const LogIndex& so_far() const { return index_; }
   /// Of all that was added, and whose motion was not taken.
   [[nodiscard]] LogIndex index() const;
+  /// The same at the end: an index of an hour is not there twice.
+  [[nodiscard]] LogIndex take_index();
   [[nodiscard]] EgoNews take_ego() { return ego_.take(); }
 
  private:
   void add_observation(const mrpt::obs::CObservation& observation);
+  void complete(LogIndex& index) const;
 
   LogIndex index_;
   EgoSamples ego_;
