@@ -7,24 +7,26 @@
 namespace lidar_upsampling {
 namespace {
 
-Stamp at(double seconds) { return shifted(Stamp(Stamp::duration(132000000000000000LL)), seconds); }
+Stamp log_time(double seconds) {
+  return shifted(Stamp(Stamp::duration(132000000000000000LL)), seconds);
+}
 
-StreamInfo stream(const std::string& label, StreamKind kind, double from_s) {
+StreamInfo stream_from(const std::string& label, StreamKind kind, double from_s) {
   StreamInfo info;
   info.label = label;
   info.kind = kind;
-  for (int i = 0; i < 100; ++i) info.stamps.push_back(at(from_s + 0.1 * i));
+  for (int i = 0; i < 100; ++i) info.stamps.push_back(log_time(from_s + 0.1 * i));
   info.count = info.stamps.size();
   return info;
 }
 
 class EgoGoesBy : public ::testing::Test {
  protected:
-  EgoGoesBy() { streams_.streams.push_back(stream("LIDAR", StreamKind::lidar, 0)); }
+  EgoGoesBy() { streams_.streams.push_back(stream_from("LIDAR", StreamKind::lidar, 0)); }
 
   void add(StreamKind kind, double from_s = 0) {
     streams_.streams.push_back(
-        stream("EGO" + std::to_string(streams_.streams.size()), kind, from_s));
+        stream_from("EGO" + std::to_string(streams_.streams.size()), kind, from_s));
   }
   [[nodiscard]] bool goes_by() const { return ego_goes_by(config_, streams_); }
 
