@@ -40,10 +40,19 @@ inline void tell_what_was_meant(const CLI::App& app) {
   }
 }
 
+/// What is no number, or none that is finite, passes CLI11's own checks of ranges.
+inline void refuse_numbers_that_are_none(CLI::App& app) {
+  const CLI::Validator is_number(
+      [](const std::string& text) { return number_in(text) ? "" : text + " is no number"; }, "");
+  for (CLI::Option* option : app.get_options())
+    if (option->get_type_name().find("FLOAT") != std::string::npos) option->check(is_number);
+}
+
 /// @brief What every tool's main does: parses, works, and says in one line on stderr what failed; a
 /// signal that ends it leaves nothing half done.
 /// @return the exit status: 0 done, 1 failed, 2 wrong usage.
 inline int run_tool(CLI::App& app, int argc, char** argv, const std::function<void()>& work) {
+  refuse_numbers_that_are_none(app);
   app.set_version_flag("--version", app.get_name() + " " + LIDAR_UPSAMPLING_VERSION);
   try {
     app.parse(argc, argv);

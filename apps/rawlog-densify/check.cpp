@@ -12,13 +12,14 @@
 #include <set>
 
 #include "drawing.h"
+#include "ego_ahead.h"
 #include "lidar_upsampling/front_end/pose_input.h"
 #include "lidar_upsampling/front_end/usable_observations.h"
 #include "lidar_upsampling/io/carriers.h"
-#include "lidar_upsampling/io/rawlog_stream.h"
 #include "lidar_upsampling/registration/scan_registration.h"
 #include "lidar_upsampling/scan/sweep.h"
 #include "lidar_upsampling/vision/projection.h"
+#include "log_ahead.h"
 #include "pictures.h"
 #include "streams.h"
 
@@ -70,11 +71,21 @@ class Checker {
     result.lidar_label = streams.lidar->label;
     result.time_offset_in_force_ms = job.config.timing.camera_time_offset_ms;
     period_s_ = streams.lidar->median_period_s;
-    for (const PoseSample& sample : result.index.poses) ego_.add_pose(sample);
-    for (const PoseSample& sample : result.index.odometry) ego_.add_odometry(sample);
-    for (const GnssSample& sample : result.index.gnss) ego_.add_gnss(sample);
     result.ego_source = to_string(ego_.source());
+    take({result.index.poses, result.index.odometry, result.index.gnss});
     choose(streams);
+  }
+
+  /// What there is of the vehicle's motion, ahead of its turn.
+  void take(const EgoNews& news) {
+    for (const PoseSample& sample : news.poses) ego_.add_pose(sample);
+    for (const PoseSample& sample : news.odometry) ego_.add_odometry(sample);
+    for (const GnssSample& sample : news.gnss) ego_.add_gnss(sample);
+    // What has come up once counts, though it may be forgotten.
+    if (ego_.source() != EgoSource::camera) result_.ego_source = to_string(ego_.source());
+  }
+  void forget_past() {
+    if (previous_) ego_.forget_before(shifted(previous_->stamp, -kEgoMemory_s));
   }
 
   void feed(const CObservation::Ptr& observation) {
@@ -229,21 +240,38 @@ class Checker {
 
 }  // namespace
 
+namespace {
+
+void feed_entry(const RawlogEntry& entry, Checker& checker) {
+  if (const auto* frame = dynamic_cast<const mrpt::obs::CSensoryFrame*>(entry.object.get()))
+    for (const CObservation::Ptr& observation : *frame) checker.feed(observation);
+  else
+    checker.feed(std::dynamic_pointer_cast<CObservation>(entry.object));
+}
+
+}  // namespace
+
 LogCheck check_log(const DensifyJob& job, const std::function<void(double)>& progress) {
   constexpr double kIndexShare = 0.2;
+  const LogFile file(job.input, true);
+  const auto tell_index = [&](double share) { progress(kIndexShare * share); };
   LogCheck result;
-  result.index = index_log({job.input, true}, [&](double share) { progress(kIndexShare * share); });
+  result.index = index_streams(file, tell_index);
+  const bool goes_by = ego_goes_by(job.config, result.index);
+  if (!goes_by) result.index = index_log(file, tell_index);
   take_poses_from_file(job.config, job.rig, result.index);
   Checker checker(job, result);
-  RawlogReader reader(LogFile(job.input, true));
+  LogAhead log(file, goes_by ? span_ahead_s(job.config) : 0);
   for (std::size_t i = 0; i < result.index.num_objects; ++i) {
-    const auto entry = reader.next();
+    while (!log.is_full() && log.read_on() != nullptr) {
+      const EgoNews news = log.indexer().take_ego();
+      if (goes_by) checker.take(news);
+    }
+    const auto entry = log.next();
     if (!entry) break;
-    if (const auto* frame = dynamic_cast<const mrpt::obs::CSensoryFrame*>(entry->object.get()))
-      for (const CObservation::Ptr& observation : *frame) checker.feed(observation);
-    else
-      checker.feed(std::dynamic_pointer_cast<CObservation>(entry->object));
-    progress(kIndexShare + (1 - kIndexShare) * reader.progress());
+    feed_entry(*entry, checker);
+    if (goes_by) checker.forget_past();
+    progress(kIndexShare + (1 - kIndexShare) * log.progress());
   }
   checker.finish();
   return result;

@@ -9,16 +9,13 @@
 #include <stdexcept>
 #include <utility>
 
+#include "ego_ahead.h"
 #include "lidar_upsampling/io/carriers.h"
 
 namespace lidar_upsampling {
 
 using mrpt::obs::CObservation;
 using mrpt::obs::CObservationImage;
-
-namespace {
-constexpr double kEgoMemory_s = 5;
-}  // namespace
 
 Densification::Densification(const DensifyJob& job, const LogIndex& index, DensifyReport& report)
     : job_(job),
@@ -53,6 +50,12 @@ void Densification::take_ego(const EgoNews& news) {
   for (const PoseSample& sample : news.poses) ego.add_pose(sample);
   for (const PoseSample& sample : news.odometry) ego.add_odometry(sample);
   for (const GnssSample& sample : news.gnss) ego.add_gnss(sample);
+}
+
+void Densification::go_on_by(const EgoNews& news) {
+  learns_ = true;
+  take_ego(news);
+  report_.ego_source = to_string(upsampler_.ego_motion().source());
 }
 
 void Densification::learn(LogIndexer& indexer) {

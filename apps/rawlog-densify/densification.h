@@ -43,6 +43,9 @@ class Densification {
   /// @throw std::runtime_error streams have come up that leave none to choose.
   /// @throw EgoComesLate, if the log can be read again.
   void learn(LogIndexer& indexer);
+  /// @brief Takes the vehicle's motion that comes up ahead of its turn, where ego_goes_by(), of a
+  /// log whose streams are known. What is long past is forgotten.
+  void go_on_by(const EgoNews& news);
   /// @brief With `mode = offline`, takes the scans of an entry of the log, ahead of its turn.
   void look_ahead(const RawlogEntry& entry);
   /// Whether the next scan needs entries from further ahead.

@@ -38,6 +38,7 @@ struct LogPart {
   const LogIndex* index = nullptr;  ///< of the whole log, with the poses that are to be used
   std::optional<Stamp> from;        ///< none: the log's begin
   std::optional<Stamp> to;          ///< none: the log's end
+  bool ego_goes_by = false;         ///< the index is without it
   double warm_up_s = 0;             ///< what goes before `from` is looked at for so long
 };
 

@@ -6,25 +6,18 @@
 #include <stdexcept>
 #include <utility>
 
+#include "ego_ahead.h"
 #include "lidar_upsampling/front_end/pose_input.h"
 #include "streams.h"
 
 namespace lidar_upsampling {
 namespace {
 
-constexpr double kMostGap_s = 2;
-
-// An instant's next pose, if it counts, and some more for observations that come late.
-double span_ahead_s(const Config& config) {
-  constexpr double kLate_s = 0.5;
-  return std::min(kMostGap_s, config.ego_motion.max_interpolation_gap_s) + kLate_s;
-}
-
 // What only a look at all of the log tells.
 bool asks_for_all(const Config& config) {
   const PoseFileOptions& file = config.pose_file;
   return (config.sweep.scan_time == ScanTime::azimuth && config.sweep.period_ms <= 0) ||
-         config.ego_motion.max_interpolation_gap_s > kMostGap_s ||
+         config.ego_motion.max_interpolation_gap_s > kMostEgoGap_s ||
          (!file.path.empty() && file.times.empty() && format_of(file) == PoseFileFormat::kitti);
 }
 
@@ -90,9 +83,21 @@ std::optional<LogIndex> LogInput::index_of_beginning() {
   return index;
 }
 
-void LogInput::know_all() {
+void LogInput::know_all(bool ego_goes_by) {
   knows_all_ = true;
-  log_.look_no_further();
+  ego_goes_by_ = ego_goes_by;
+  if (!ego_goes_by) log_.look_no_further();
+}
+
+void LogInput::take_ego_from(Stamp stamp) {
+  const auto add = [&](const auto& news, auto& kept) {
+    for (const auto& sample : news)
+      if (sample.stamp >= stamp) kept.push_back(sample);
+  };
+  const EgoNews news = log_.indexer().take_ego();
+  add(news.poses, passed_.poses);
+  add(news.odometry, passed_.odometry);
+  add(news.gnss, passed_.gnss);
 }
 
 void LogInput::skip_to(Stamp stamp) {
@@ -100,15 +105,21 @@ void LogInput::skip_to(Stamp stamp) {
     if (log_.waiting().empty() && read_on() == nullptr) return;
     if (is_from(log_.waiting().front(), stamp)) return;
     static_cast<void>(log_.next());
+    if (ego_goes_by_) take_ego_from(shifted(stamp, -kEgoMemory_s));
   }
 }
 
 std::optional<RawlogEntry> LogInput::next(Densification& run, std::optional<Stamp> end) {
+  if (ego_goes_by_) {
+    run.go_on_by(std::exchange(passed_, {}));
+    run.go_on_by(log_.indexer().take_ego());
+  }
   for (; num_told_ < log_.waiting().size(); ++num_told_) run.look_ahead(log_.waiting()[num_told_]);
   while (!log_.is_full() || run.wants_scans()) {
     const RawlogEntry* const entry = read_on();
     if (entry == nullptr) break;
     if (!knows_all_) run.learn(log_.indexer());
+    if (ego_goes_by_) run.go_on_by(log_.indexer().take_ego());
     run.look_ahead(*entry);
     ++num_told_;
   }

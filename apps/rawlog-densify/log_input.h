@@ -29,8 +29,9 @@ class LogInput {
   /// @throw std::runtime_error damaged, no fitting poses.
   [[nodiscard]] LogIndex index(bool whole, const std::function<void(double)>& progress);
 
-  /// In place of index(), for a log whose index is known.
-  void know_all();
+  /// @brief In place of index(), for a log whose index is known.
+  /// @param ego_goes_by the vehicle's motion is not in it, and is taken while the log goes by.
+  void know_all(bool ego_goes_by);
 
   /// @brief Passes over what comes before the first entry that has this stamp, or a later one.
   /// @throw std::runtime_error damaged
@@ -46,6 +47,7 @@ class LogInput {
 
  private:
   const RawlogEntry* read_on();
+  void take_ego_from(Stamp stamp);
   [[nodiscard]] std::optional<LogIndex> index_of_beginning();
 
   const DensifyJob& job_;
@@ -53,6 +55,8 @@ class LogInput {
   LogAhead log_;
   std::size_t num_told_ = 0;  ///< to the run, of the entries that wait
   bool knows_all_ = false;    ///< the run, of the log
+  bool ego_goes_by_ = false;
+  EgoNews passed_;  ///< of what was passed over, and still counts
 };
 
 }  // namespace lidar_upsampling

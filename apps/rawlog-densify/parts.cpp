@@ -14,6 +14,7 @@
 #include <thread>
 #include <utility>
 
+#include "ego_ahead.h"
 #include "lidar_upsampling/front_end/pose_input.h"
 #include "lidar_upsampling/io/file_places.h"
 #include "lidar_upsampling/io/output_file.h"
@@ -122,10 +123,13 @@ DensifyReport densify_in_parts(const DensifyJob& job, const PartOptions& options
   // Whether it can be written is told before the work.
   static_cast<void>(output_place(job.output, job.overwrite));
   mrpt::img::CImage::DISABLE_JPEG_COMPRESSION(true);  // of the process: not once per writer
-  LogIndex index = index_log({job.input, job.accept_truncated});
+  LogIndex index = index_streams({job.input, job.accept_truncated});
+  const bool goes_by = ego_goes_by(job.config, index);
+  if (!goes_by) index = index_log({job.input, job.accept_truncated});
   take_poses_from_file(job.config, job.rig, index);
   const auto streams = select_streams(index, job.config, labels_of_calibrated(job.rig));
-  const std::vector<LogPart> parts = parts_of(index, streams.lidar->stamps, options);
+  std::vector<LogPart> parts = parts_of(index, streams.lidar->stamps, options);
+  for (LogPart& part : parts) part.ego_goes_by = goes_by;
   PartFiles files(job, parts.size());
   std::shared_ptr<ReportRows> rows;
   if (!job.rows_beside.empty()) rows = std::make_shared<ReportRows>(job.rows_beside);

@@ -2,71 +2,8 @@
 // Copyright (c) 2026, the lidar_upsampling authors
 #include "report_rows.h"
 
-#include <cstdint>
-#include <cstring>
-#include <stdexcept>
-#include <type_traits>
-
 namespace lidar_upsampling {
 namespace {
-
-using Length = std::uint32_t;
-constexpr std::size_t kBlock = 1U << 18U;
-
-/// Appends values as memory has them: the process that writes them reads them.
-class Writing {
- public:
-  explicit Writing(std::string& bytes) : bytes_(bytes) {}
-
-  template <typename Value>
-  void operator()(const Value& value) {
-    static_assert(std::is_trivially_copyable_v<Value>);
-    bytes_.append(reinterpret_cast<const char*>(&value), sizeof value);
-  }
-  template <int kRows, int kColumns>
-  void operator()(const Eigen::Matrix<double, kRows, kColumns>& matrix) {
-    bytes_.append(reinterpret_cast<const char*>(matrix.data()), sizeof(double) * kRows * kColumns);
-  }
-  void operator()(const Pose& pose) { (*this)(pose.matrix()); }
-  void operator()(const std::string& text) {
-    (*this)(text.size());
-    bytes_ += text;
-  }
-
- private:
-  std::string& bytes_;
-};
-
-/// The way back.
-class Reading {
- public:
-  explicit Reading(const char* at) : at_(at) {}
-
-  template <typename Value>
-  void operator()(Value& value) {
-    static_assert(std::is_trivially_copyable_v<Value>);
-    take(&value, sizeof value);
-  }
-  template <int kRows, int kColumns>
-  void operator()(Eigen::Matrix<double, kRows, kColumns>& matrix) {
-    take(matrix.data(), sizeof(double) * kRows * kColumns);
-  }
-  void operator()(Pose& pose) { (*this)(pose.matrix()); }
-  void operator()(std::string& text) {
-    std::size_t size = 0;
-    (*this)(size);
-    text.assign(at_, size);
-    at_ += size;
-  }
-
- private:
-  void take(void* to, std::size_t size) {
-    std::memcpy(to, at_, size);
-    at_ += size;
-  }
-
-  const char* at_;
-};
 
 template <typename Transfer, typename Motion>
 void transfer_object(Transfer& transfer, Motion& object) {
@@ -97,7 +34,7 @@ void transfer_box(Transfer& transfer, Box& box) {
   transfer(box.velocity);
 }
 
-ReportRow row_in(Reading& reading) {
+ReportRow row_in(RecordReader& reading) {
   ReportRow row;
   reading(row.stamp);
   reading(row.num_points);
@@ -109,7 +46,7 @@ ReportRow row_in(Reading& reading) {
   return row;
 }
 
-OtherCluster cluster_in(Reading& reading) {
+OtherCluster cluster_in(RecordReader& reading) {
   OtherCluster cluster;
   reading(cluster.centroid_lidar_k);
   reading(cluster.size);
@@ -120,74 +57,31 @@ OtherCluster cluster_in(Reading& reading) {
 
 }  // namespace
 
-ReportRows::ReportRows(const std::string& beside) : file_(OutputFile::scratch(beside)) {}
-
-void ReportRows::begin(Kind kind) {
-  begin_ = waiting_.size();
-  Writing writing(waiting_);
-  writing(Length(0));
-  writing(kind);
-}
-
-void ReportRows::end() {
-  const auto length = static_cast<Length>(waiting_.size() - begin_ - sizeof(Length));
-  std::memcpy(waiting_.data() + begin_, &length, sizeof length);
-  if (waiting_.size() >= kBlock) write_out();
-}
-
-void ReportRows::write_out() {
-  file_.write(waiting_);
-  waiting_.clear();
-}
-
 void ReportRows::add(const ReportRow& row) {
-  begin(Kind::row);
-  Writing writing(waiting_);
-  writing(row.stamp);
-  writing(row.num_points);
-  transfer_object(writing, row.object);
-  writing(row.T_rest_lidar);
-  writing(row.box.has_value());
-  if (row.box) transfer_box(writing, *row.box);
-  end();
+  file_.add([&](RecordWriter& writing) {
+    writing(Kind::row);
+    writing(row.stamp);
+    writing(row.num_points);
+    transfer_object(writing, row.object);
+    writing(row.T_rest_lidar);
+    writing(row.box.has_value());
+    if (row.box) transfer_box(writing, *row.box);
+  });
 }
 
 void ReportRows::add(Stamp key_stamp, const OtherCluster& cluster) {
-  begin(Kind::cluster);
-  Writing writing(waiting_);
-  writing(key_stamp);
-  writing(cluster.centroid_lidar_k);
-  writing(cluster.size);
-  writing(cluster.num_points);
-  writing(cluster.why);  // a literal of this process
-  end();
+  file_.add([&](RecordWriter& writing) {
+    writing(Kind::cluster);
+    writing(key_stamp);
+    writing(cluster.centroid_lidar_k);
+    writing(cluster.size);
+    writing(cluster.num_points);
+    writing(cluster.why);  // a literal of this process
+  });
 }
 
-void ReportRows::for_each(const UseRow& use_row, const UseCluster& use_cluster) {
-  write_out();
-  std::string block;
-  std::size_t room = kBlock;
-  for (std::uint64_t at = 0; at < file_.size();) {
-    block.resize(room);
-    block.resize(file_.read(at, block.data(), block.size()));
-    const std::size_t used = use_records(block, use_row, use_cluster);
-    if (used == 0 && block.size() < room)
-      throw std::runtime_error(file_.path() + ": the report's rows are lost");
-    if (used == 0) room *= 2;  // a record longer than that
-    at += used;
-  }
-}
-
-// Of the block, as far as records are whole. @return how many bytes these are.
-std::size_t ReportRows::use_records(const std::string& block, const UseRow& use_row,
-                                    const UseCluster& use_cluster) {
-  std::size_t used = 0;
-  while (block.size() - used >= sizeof(Length)) {
-    Length length = 0;
-    std::memcpy(&length, block.data() + used, sizeof length);
-    if (block.size() - used - sizeof length < length) break;
-    Reading reading(block.data() + used + sizeof length);
-    used += sizeof length + length;
+void ReportRows::for_each(const UseRow& use_row, const UseCluster& use_cluster) const {
+  file_.for_each([&](RecordReader& reading) {
     Kind kind{};
     reading(kind);
     if (kind == Kind::row && use_row) {
@@ -198,8 +92,7 @@ std::size_t ReportRows::use_records(const std::string& block, const UseRow& use_
       reading(key_stamp);
       use_cluster(key_stamp, cluster_in(reading));
     }
-  }
-  return used;
+  });
 }
 
 }  // namespace lidar_upsampling

@@ -7,9 +7,9 @@
 #include <optional>
 #include <string>
 
-#include "lidar_upsampling/io/output_file.h"
 #include "lidar_upsampling/scene/object_scene.h"
 #include "lidar_upsampling/types.h"
+#include "record_file.h"
 
 namespace lidar_upsampling {
 
@@ -22,12 +22,11 @@ struct ReportRow {
   Pose T_rest_lidar = Pose::Identity();  ///< at `stamp`, as in VirtualScan
 };
 
-/// @brief Rows of a report on their way to it: in a file without a name, as memory would grow with
-/// the log.
+/// Rows of a report on their way to it.
 class ReportRows {
  public:
   /// @param beside what the file lies on one disk with. @throw std::runtime_error as OutputFile
-  explicit ReportRows(const std::string& beside);
+  explicit ReportRows(const std::string& beside) : file_(beside) {}
 
   /// @throw std::runtime_error the disk is full
   void add(const ReportRow& row);
@@ -36,19 +35,12 @@ class ReportRows {
   using UseRow = std::function<void(ReportRow&)>;
   using UseCluster = std::function<void(Stamp key_stamp, const OtherCluster&)>;
   /// All of them in their order; an empty function leaves its kind out.
-  void for_each(const UseRow& use_row, const UseCluster& use_cluster);
+  void for_each(const UseRow& use_row, const UseCluster& use_cluster) const;
 
  private:
   enum class Kind : char { row, cluster };
-  void begin(Kind kind);
-  void end();
-  void write_out();
-  static std::size_t use_records(const std::string& block, const UseRow& use_row,
-                                 const UseCluster& use_cluster);
 
-  OutputFile file_;
-  std::string waiting_;    ///< to be written
-  std::size_t begin_ = 0;  ///< of the record under way
+  RecordFile file_;
 };
 
 }  // namespace lidar_upsampling

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the lidar_upsampling authors
 #include <filesystem>
-#include <iterator>
 #include <utility>
 
 #include "evaluation.h"
@@ -10,10 +9,12 @@ namespace lidar_upsampling {
 
 namespace {
 
-void name_after(LogResult& log) {
+void add_named(const LogResult& log, ScanResults& scans) {
   const std::string stem = std::filesystem::path(log.reference).stem().string();
-  for (ScanResult& scan : log.scans)
+  log.scans.for_each([&](ScanResult& scan) {
     for (ObjectResult& object : scan.objects) object.object.id = stem + "/" + object.object.id;
+    scans.add(scan);
+  });
 }
 
 }  // namespace
@@ -23,8 +24,12 @@ void append(LogResult& total, LogResult log) {
     total = std::move(log);
     return;
   }
-  if (total.num_logs == 1) name_after(total);
-  name_after(log);
+  if (total.num_logs == 1) {
+    ScanResults named(total.scans.beside());
+    add_named(total, named);
+    total.scans = std::move(named);
+  }
+  add_named(log, total.scans);
   ++total.num_logs;
   total.has_truth = total.has_truth && log.has_truth;
   total.num_virtual += log.num_virtual;
@@ -33,7 +38,6 @@ void append(LogResult& total, LogResult log) {
   for (const Row row : kRows)
     if (total.labels[row] && log.labels[row]) append(*total.labels[row], *log.labels[row]);
   for (const std::string& note : log.notes) total.notes.push_back(log.input + ": " + note);
-  std::move(log.scans.begin(), log.scans.end(), std::back_inserter(total.scans));
 }
 
 }  // namespace lidar_upsampling

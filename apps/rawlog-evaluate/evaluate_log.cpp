@@ -23,6 +23,8 @@
 #include "lidar_upsampling/registration/scan_registration.h"
 #include "log_streams.h"
 #include "rawlog-densify/densification.h"
+#include "rawlog-densify/ego_ahead.h"
+#include "rawlog-densify/log_ahead.h"
 #include "scan_queue.h"
 
 namespace lidar_upsampling {
@@ -66,11 +68,15 @@ class Walk {
     try {
       paper_.emplace(job.paper, without_virtual(input, result.virtual_label), paper_report_);
       if (labels_)
-        paper_report_.rows = std::make_shared<ReportRows>(
-            (std::filesystem::temp_directory_path() / "rows").string());
+        paper_report_.rows = std::make_shared<ReportRows>(scratch_place(job.scratch_beside));
     } catch (const std::exception& error) {
       result_.notes.push_back(std::string("no row `paper`: ") + error.what());
     }
+  }
+
+  /// What there is of the vehicle's motion, ahead of its turn.
+  void take(const EgoNews& news) {
+    if (paper_) paper_->go_on_by(news);
   }
 
   void feed(const mrpt::obs::CObservation::Ptr& observation) {
@@ -244,11 +250,14 @@ void feed_entry(const RawlogEntry& entry, Walk& walk) {
 LogResult evaluate_log(const EvaluationJob& job, const std::function<void(double)>& progress) {
   LogIndex input;
   std::optional<LogIndex> reference;
+  bool goes_by = true;                      // the vehicle's motion, beside the log
   mrpt::rtti::registerAllPendingClasses();  // not by two threads at a time
   tbb::parallel_invoke(
       [&] {
         const LogFile log{job.input, job.accept_truncated};
-        input = job.paper_row ? index_log(log) : index_streams(log);
+        input = index_streams(log);
+        goes_by = !job.paper_row || ego_goes_by(job.paper.config, input);
+        if (!goes_by) input = index_log(log);
       },
       [&] {
         if (!job.reference.empty())
@@ -256,6 +265,7 @@ LogResult evaluate_log(const EvaluationJob& job, const std::function<void(double
       });
   take_poses_from_file(job.paper.config, job.paper.rig, input);
   LogResult result;
+  result.scans = ScanResults(job.scratch_beside);
   result.input = job.input;
   result.reference = job.reference;
   result.label = find_label(input, job.label);
@@ -266,13 +276,23 @@ LogResult evaluate_log(const EvaluationJob& job, const std::function<void(double
   if (input.corruption) result.notes.push_back(*input.corruption);
   if (reference && reference->corruption) result.notes.push_back(*reference->corruption);
   Walk walk(job, input, reference ? &*reference : nullptr, result);
-  RawlogReader reader({job.input, job.accept_truncated});
-  while (const auto entry = reader.next()) {
+  input = LogIndex();  // of an hour some megabytes
+  const bool by_labels_alone = !reference;
+  reference.reset();
+  const bool looks_ahead = goes_by && job.paper_row;
+  LogAhead log({job.input, job.accept_truncated}, looks_ahead ? span_ahead_s(job.paper.config) : 0);
+  for (;;) {
+    while (!log.is_full() && log.read_on() != nullptr) {
+      const EgoNews news = log.indexer().take_ego();
+      if (looks_ahead) walk.take(news);
+    }
+    const auto entry = log.next();
+    if (!entry) break;
     feed_entry(*entry, walk);
-    progress(reader.progress());
+    progress(log.progress());
   }
   walk.finish();
-  if (result.scans.empty() && reference)
+  if (result.scans.empty() && !by_labels_alone)
     throw std::runtime_error(job.reference + ": none of its scans lies within " +
                              std::to_string(job.tolerance_s * 1e3) + " ms of one of the " +
                              std::to_string(result.num_virtual) + " virtual scans of " + job.input);

@@ -40,6 +40,7 @@ std::vector<ObjectResult> evaluate_objects(std::vector<ObjectReference> referenc
   tbb::parallel_for(std::size_t{0}, references.size(), [&](std::size_t i) {
     ObjectResult& result = results[i];
     result.object = std::move(references[i]);
+    result.num_points = result.object.points.size();
     if (!result.object.excluded.empty()) return;
     result.estimates = estimates_of(result.object, sources);
     const ReferenceMotion& motion = result.object.motion;

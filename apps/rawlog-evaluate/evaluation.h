@@ -18,6 +18,7 @@
 #include "protocol.h"
 #include "rawlog-densify/densify.h"
 #include "rows.h"
+#include "scan_results.h"
 #include "truth.h"
 
 namespace lidar_upsampling {
@@ -72,9 +73,15 @@ using Estimates = PerRow<std::optional<Pose>>;  ///< T_lidar_t_lidar_k of an obj
 
 struct ObjectResult {
   ObjectReference object;
+  std::size_t num_points = 0;  ///< of the object, in the key scan
   Estimates estimates;
   PerRow<std::optional<ObjectError>> errors;  ///< none: the motion is not recoverable
 };
+
+/// Where ours is known, so that the rows compare the same objects.
+[[nodiscard]] inline bool is_counted(const ObjectResult& result) {
+  return result.object.excluded.empty() && result.errors[Row::ours].has_value();
+}
 
 struct CloudResult {
   Chamfer full;
@@ -121,7 +128,7 @@ struct LogResult {
   PerRow<std::optional<LabelScore>> labels;  ///< with labels, of the rows that tell of objects
   int num_unlabelled = 0;  ///< beyond the labels, or at a real scan that the log still holds
   std::vector<std::string> notes;
-  std::vector<ScanResult> scans;
+  ScanResults scans;
 };
 
 /// @brief Takes in what happened in a further log; from the second one on, objects are named after
@@ -153,10 +160,11 @@ using Pictured = std::map<std::string, CameraImage>;
 
 struct EvaluationJob {
   std::string reference, input;
-  std::string label;                  ///< empty: the one that has virtual scans
-  std::string truth_objects;          ///< empty: none
-  bool accept_truncated = false;      ///< take a damaged log without the damage
-  double tolerance_s = 0.1;           ///< to the nearest withheld scan
+  std::string label;              ///< empty: the one that has virtual scans
+  std::string truth_objects;      ///< empty: none
+  bool accept_truncated = false;  ///< take a damaged log without the damage
+  std::string scratch_beside;     ///< whose disk takes what is put aside; empty: temporary files'
+  double tolerance_s = 0.1;       ///< to the nearest withheld scan
   const RunReport* report = nullptr;  ///< of the densification; null: row `ours` is not labelled
   bool paper_row = true;
   DensifyJob paper;  ///< settings of the `paper` row

@@ -74,7 +74,7 @@ Json json_of(const ObjectResult& result) {
   const Eigen::Vector3d& centroid = object.motion.centroid_k;
   Json json{{"id", object.id},
             {"class", object.class_name},
-            {"points", object.points.size()},
+            {"points", result.num_points},
             {"centroid_m", {centroid.x(), centroid.y(), centroid.z()}},
             {"range_m", centroid.head<2>().norm()},
             {"moving", object.moving},
@@ -169,8 +169,9 @@ void write_json(const LogResult& result, const Figures& figures,
   head.resize(head.size() - 2);  // its end
   write(head + ",\n \"scans\": ");
   const char* before = "[\n  ";
-  for (const ScanResult& scan : result.scans)
+  result.scans.for_each([&](const ScanResult& scan) {
     write(std::exchange(before, ",\n  ") + indented(json_of(scan), 2));
+  });
   write(std::string(result.scans.empty() ? "[]" : "\n ]") + "\n}\n");
 }
 

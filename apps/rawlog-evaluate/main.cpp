@@ -136,6 +136,8 @@ Comparison compare(Request& request, const std::optional<RunReport>& run, bool w
   job.tolerance_s = 1e-3 * request.tolerance_ms;
   job.report = run ? &*run : nullptr;
   job.paper_row = !request.no_paper;
+  for (const std::string& output : {request.html, request.csv, request.json})
+    if (!output.empty()) job.scratch_beside = output;
   job.options.labels.max_range_m = job.options.max_range_m;
   job.options.labels.all_around = job.options.all_around;
   if (!request.protocol.empty()) job.options.protocol = find_protocol(request.protocol);

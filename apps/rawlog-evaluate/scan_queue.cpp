@@ -38,9 +38,8 @@ void ScanQueue::add(ScanToJudge scan) {
 void ScanQueue::take_first() {
   Task& task = tasks_.front();
   task.group.wait();
-  results_.push_back(std::move(task.result));
-  if (job_.on_scan)
-    job_.on_scan(scan_set(task.given, task.real), results_.back(), task.given.pictures);
+  results_.add(task.result);
+  if (job_.on_scan) job_.on_scan(scan_set(task.given, task.real), task.result, task.given.pictures);
   tasks_.pop_front();
 }
 

@@ -27,8 +27,7 @@ struct ScanToJudge {
 class ScanQueue {
  public:
   /// All must outlive this. @param results of the scans, in their order.
-  ScanQueue(const EvaluationJob& job, const std::vector<Camera>& cameras,
-            std::vector<ScanResult>& results)
+  ScanQueue(const EvaluationJob& job, const std::vector<Camera>& cameras, ScanResults& results)
       : job_(job), cameras_(cameras), results_(results) {}
   ~ScanQueue();
   ScanQueue(const ScanQueue&) = delete;
@@ -49,7 +48,7 @@ class ScanQueue {
 
   const EvaluationJob& job_;
   const std::vector<Camera>& cameras_;
-  std::vector<ScanResult>& results_;
+  ScanResults& results_;
   std::deque<Task> tasks_;
 };
 

@@ -53,8 +53,9 @@ std::vector<Calibration> calibration_of(const LogResult& log, const RunReport& r
   std::multimap<std::int64_t, const ReportedObject*> rows;
   for (const ReportedObject& object : report.objects) rows.emplace(object.stamp, &object);
   std::map<std::string, Errors> by_status;
-  for (const ScanResult& scan : log.scans)
+  log.scans.for_each([&](const ScanResult& scan) {
     for (const ObjectResult& object : scan.objects) add(scan, object, rows, by_status);
+  });
 
   std::vector<Calibration> calibrations;
   for (const auto& [status, errors] : by_status) {

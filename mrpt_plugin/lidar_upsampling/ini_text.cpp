@@ -3,6 +3,7 @@
 #include "lidar_upsampling/ini_text.h"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cerrno>
 #include <filesystem>
@@ -24,7 +25,15 @@ std::string bytes_of(const std::string& path) {
   if (!file)
     throw std::runtime_error(
         path + ": cannot read this settings file: " + std::generic_category().message(errno));
-  return {std::istreambuf_iterator<char>(file), {}};
+  constexpr std::size_t kMostBytes = 16U << 20U;
+  std::string bytes;
+  for (std::array<char, 1U << 16U> block{}; file;) {
+    file.read(block.data(), block.size());
+    bytes.append(block.data(), static_cast<std::size_t>(file.gcount()));
+    if (bytes.size() > kMostBytes)
+      throw std::runtime_error(path + ": this is no settings file: it has more than 16 MB");
+  }
+  return bytes;
 }
 
 std::string in_lower_case(std::string text) {

@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <exception>
+#include <istream>
 #include <optional>
 #include <sstream>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -30,6 +32,20 @@ namespace lidar_upsampling {
   return fields;
 }
 
+/// @brief A text file's next line, as by std::getline; a file of another kind is not read to its
+/// end first. @throw std::invalid_argument it is no text, or longer than any line of a table.
+inline bool next_line(std::istream& file, std::string& line) {
+  constexpr std::size_t kMostBytes = 1U << 16U;
+  line.clear();
+  for (char c = 0; file.get(c);) {
+    if (c == '\n') return true;
+    if (c == '\0' || line.size() == kMostBytes)
+      throw std::invalid_argument("this is no table in text");
+    line.push_back(c);
+  }
+  return !line.empty();
+}
+
 /// The finite number that the text is from end to end; none: it is something else.
 [[nodiscard]] inline std::optional<double> number_in(const std::string& text) {
   std::size_t used = 0;
@@ -42,6 +58,19 @@ namespace lidar_upsampling {
   return used == text.size() && std::isfinite(value) ? std::make_optional(value) : std::nullopt;
 }
 
+/// @brief A line that can be read: of a very long one, as what quotes a file without line ends, its
+/// begin and its end. Letters of UTF-8 stay whole.
+[[nodiscard]] inline std::string shortened(const std::string& line, std::size_t most = 2000) {
+  if (line.size() <= most) return line;
+  const auto is_inside_letter = [&](std::size_t at) {
+    return (static_cast<unsigned char>(line[at]) & 0xC0U) == 0x80U;
+  };
+  std::size_t head = 3 * most / 4, tail = line.size() - most / 4;
+  while (head > 0 && is_inside_letter(head)) --head;
+  while (tail < line.size() && is_inside_letter(tail)) ++tail;
+  return line.substr(0, head) + " ... " + line.substr(tail);
+}
+
 /// @brief What an exception says, in one line: MRPT's own carry a call stack behind the message.
 [[nodiscard]] inline std::string one_line(const std::exception& error) {
   std::string_view text = error.what();
@@ -52,8 +81,7 @@ namespace lidar_upsampling {
     text.remove_prefix(at + kMark.size());
   }
   text.remove_prefix(std::min(text.size(), text.find_first_not_of(" \t\n")));
-  text = text.substr(0, text.find('\n'));
-  return std::string(text);
+  return shortened(std::string(text.substr(0, text.find('\n'))));
 }
 
 }  // namespace lidar_upsampling

@@ -32,27 +32,36 @@ class Entries {
     return Eigen::Map<const Stored>(numbers(name, static_cast<std::size_t>(Rows * Columns)));
   }
 
+  // The files hold seven digits, so rotations are not quite orthogonal.
+  [[nodiscard]] Eigen::Matrix3d nearest_rotation(const std::string& name,
+                                                 const Eigen::Matrix3d& R) const {
+    constexpr double kTolerance = 0.01;
+    if (!(R.transpose() * R).isIdentity(kTolerance) || !(R.determinant() > 0))
+      fail(name, "is no rotation");
+    return Eigen::Quaterniond(R).normalized().toRotationMatrix();
+  }
+
+  [[noreturn]] void fail(const std::string& name, const std::string& what) const {
+    throw std::runtime_error(path_ + ": entry '" + name + "' " + what);
+  }
+
  private:
   std::string path_;
   CalibrationFile file_;
 };
 
-// The files hold seven digits, so rotations are not quite orthogonal.
-Eigen::Matrix3d nearest_rotation(const Eigen::Matrix3d& R) {
-  return Eigen::Quaterniond(R).normalized().toRotationMatrix();
-}
-
 Pose rigid_motion(const std::string& path) {
   const Entries entries(path);
   Pose T = Pose::Identity();
-  T.linear() = nearest_rotation(entries.matrix<3, 3>("R"));
+  T.linear() = entries.nearest_rotation("R", entries.matrix<3, 3>("R"));
   T.translation() = entries.matrix<3, 1>("T");
   return T;
 }
 
 // A rectified camera: K and the offset from camera 0 are both in its projection matrix.
-Camera camera_from(const Eigen::Matrix<double, 3, 4>& P, int number,
+Camera camera_from(const Entries& entries, const std::string& name, int number,
                    const Pose& T_rectified_0_vehicle) {
+  const auto P = entries.matrix<3, 4>(name);
   Camera camera;
   camera.label = "CAM" + std::to_string(number);
   camera.model.fx = P(0, 0);
@@ -62,12 +71,14 @@ Camera camera_from(const Eigen::Matrix<double, 3, 4>& P, int number,
   Pose T_camera_rectified_0 = Pose::Identity();
   T_camera_rectified_0.translation() = P.leftCols<3>().inverse() * P.col(3);
   camera.T_vehicle_camera = (T_camera_rectified_0 * T_rectified_0_vehicle).inverse();
+  if (!(camera.model.fx > 0 && camera.model.fy > 0 && camera.T_vehicle_camera.matrix().allFinite()))
+    entries.fail(name, "is no camera's projection");
   return camera;
 }
 
 Camera camera_of_drive(const Entries& entries, int number, const Pose& T_rectified_0_vehicle) {
   const std::string suffix = "_rect_0" + std::to_string(number);
-  Camera camera = camera_from(entries.matrix<3, 4>("P" + suffix), number, T_rectified_0_vehicle);
+  Camera camera = camera_from(entries, "P" + suffix, number, T_rectified_0_vehicle);
   const auto size = entries.matrix<2, 1>("S" + suffix);
   camera.model.width = static_cast<int>(size.x());
   camera.model.height = static_cast<int>(size.y());
@@ -97,7 +108,8 @@ Calibration read_calibration(const std::string& folder) {
   const Pose T_camera_0_lidar = rigid_motion(folder + "/calib_velo_to_cam.txt");
   const Entries cameras(folder + "/calib_cam_to_cam.txt");
   Pose T_rectified_0_camera_0 = Pose::Identity();
-  T_rectified_0_camera_0.linear() = nearest_rotation(cameras.matrix<3, 3>("R_rect_00"));
+  T_rectified_0_camera_0.linear() =
+      cameras.nearest_rotation("R_rect_00", cameras.matrix<3, 3>("R_rect_00"));
   const Pose T_rectified_0_vehicle = T_rectified_0_camera_0 * T_camera_0_lidar * T_lidar_vehicle;
   Calibration calibration;
   calibration.T_vehicle_lidar = T_lidar_vehicle.inverse();
@@ -113,15 +125,14 @@ Calibration read_sequence_calibration(const std::string& path) {
   const Entries entries(path);
   const auto Tr = entries.matrix<3, 4>("Tr");
   Pose T_camera_0_vehicle = Pose::Identity();
-  T_camera_0_vehicle.linear() = nearest_rotation(Tr.leftCols<3>());
+  T_camera_0_vehicle.linear() = entries.nearest_rotation("Tr", Tr.leftCols<3>());
   T_camera_0_vehicle.translation() = Tr.col(3);
   Calibration calibration;
   calibration.T_vehicle_rectified_0 = T_camera_0_vehicle.inverse();
   for (int number = 0; number < 4; ++number) {
     const std::string name = "P" + std::to_string(number);
     if (!entries.has(name)) continue;
-    calibration.cameras[number] =
-        camera_from(entries.matrix<3, 4>(name), number, T_camera_0_vehicle);
+    calibration.cameras[number] = camera_from(entries, name, number, T_camera_0_vehicle);
   }
   return calibration;
 }

@@ -135,6 +135,9 @@ TEST_F(PoseFile, what_is_wrong_is_named_with_its_line) {
             ": the header names neither yaw,pitch,roll nor qx,qy,qz,qw; expected stamp,x,y,z and "
             "one of them");
   EXPECT_EQ(error_of("# nothing\n"), ": holds no poses");
+  const std::string no_text = ", line 1: this is no table in text";
+  EXPECT_EQ(error_of(std::string("\x1f\x8b\x08\0\n", 5)), no_text);
+  EXPECT_EQ(error_of(std::string(100000, '1')), no_text);
 }
 
 TEST_F(PoseFile, of_kitti_that_fits_neither_scans_nor_times_says_so) {

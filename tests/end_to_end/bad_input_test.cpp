@@ -210,7 +210,10 @@ TEST(BadInput, wrong_usage_has_a_status_of_its_own) {
   EXPECT_EQ(run(RAWLOG_DENSIFY).status, 2);
   EXPECT_EQ(run(std::string(RAWLOG_DENSIFY) + " --input a.rawlog").status, 2);
   EXPECT_EQ(run(std::string(RAWLOG_DENSIFY) + " --input a --output b --what").status, 2);
+  EXPECT_EQ(run(std::string(RAWLOG_DENSIFY) + " --input a --output b --warm-up nan").status, 2);
   EXPECT_EQ(run(RAWLOG_EVALUATE).status, 2);
+  EXPECT_EQ(run(std::string(RAWLOG_EVALUATE) + " --reference a --input b --max-range nan").status,
+            2);
   EXPECT_EQ(run(RAWLOG_SIMULATE).status, 2);
   EXPECT_EQ(run(KITTI2RAWLOG).status, 2);
 }

@@ -16,14 +16,20 @@ LogResult log_named(const std::string& reference, int num_virtual) {
   ScanResult scan;
   scan.objects.resize(1);
   scan.objects[0].object.id = "1";
-  log.scans = {scan};
+  log.scans.add(scan);
   return log;
+}
+
+std::vector<std::string> first_ids(const LogResult& log) {
+  std::vector<std::string> ids;
+  log.scans.for_each([&](const ScanResult& scan) { ids.push_back(scan.objects[0].object.id); });
+  return ids;
 }
 
 TEST(Append, one_log_stays_as_it_is) {
   LogResult total;
   append(total, log_named("in/04.rawlog", 3));
-  EXPECT_EQ(total.scans[0].objects[0].object.id, "1");
+  EXPECT_EQ(first_ids(total), std::vector<std::string>{"1"});
   EXPECT_EQ(total.num_logs, 1);
 }
 
@@ -32,10 +38,8 @@ TEST(Append, objects_of_several_logs_are_told_apart_by_their_logs_names) {
   append(total, log_named("in/04.rawlog", 3));
   append(total, log_named("in/47.rawlog", 4));
   append(total, log_named("in/56.rawlog", 5));
-  ASSERT_EQ(total.scans.size(), 3U);
-  EXPECT_EQ(total.scans[0].objects[0].object.id, "04/1");
-  EXPECT_EQ(total.scans[1].objects[0].object.id, "47/1");
-  EXPECT_EQ(total.scans[2].objects[0].object.id, "56/1");
+  EXPECT_EQ(total.scans.size(), 3U);
+  EXPECT_EQ(first_ids(total), (std::vector<std::string>{"04/1", "47/1", "56/1"}));
   EXPECT_EQ(total.num_virtual, 12);
   EXPECT_EQ(total.num_logs, 3);
   EXPECT_EQ(total.notes.back(), "dense.rawlog: seen");

@@ -67,7 +67,10 @@ TEST(Report, as_a_stream_is_the_document_byte_for_byte) {
     report.warn("a kind");
     std::ostringstream text;
     write_json(report, text);
-    EXPECT_TRUE(text.str() == to_json(report).dump(1) + "\n") << num_rows;
+    nlohmann::json document = to_json(report);
+    // Each looks for itself how much else the machine does.
+    document["machine"]["load"] = nlohmann::json::parse(text.str())["machine"]["load"];
+    EXPECT_TRUE(text.str() == document.dump(1) + "\n") << num_rows;
   }
 }
 

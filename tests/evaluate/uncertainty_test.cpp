@@ -30,7 +30,7 @@ Case objects_that_err(double factor, bool has_truth = true) {
     const Eigen::Translation3d off(error(random), error(random), error(random));
     object.estimates[Row::ours] = off * object.object.motion.T_lidar_t_lidar_k;
     scan.objects.push_back(object);
-    made.log.scans.push_back(scan);
+    made.log.scans.add(scan);
     ReportedObject row;
     row.stamp = 1000 + i;
     row.status = "moving";

@@ -13,6 +13,10 @@
 
 #include "fuzz/target.h"
 
+/// What the sanitizer keeps of what was freed is no memory of ours.
+extern "C" const char* __asan_default_options();  // NOLINT: the sanitizer's name
+const char* __asan_default_options() { return "quarantine_size_mb=16"; }  // NOLINT
+
 namespace {
 
 using namespace lidar_upsampling::fuzz;  // NOLINT(google-build-using-namespace)

@@ -55,6 +55,7 @@ TEST(IniText, what_is_no_text_is_told) {
   expect_error(std::string("\xff\xfe[\0a\0", 6), "UTF-16");
   expect_error(std::string("[\0a\0]\0", 6), "a.ini:1: this is no text");
   expect_error("[a]\nx = \x01\n", "a.ini:2: this is no text");
+  expect_error(std::string(17U << 20U, '\n'), "a.ini: this is no settings file");
   const TestFolder folder;
   EXPECT_THROW(static_cast<void>(read_ini(folder.path().string())), std::runtime_error);
   EXPECT_THROW(static_cast<void>(read_ini(folder / "none.ini")), std::runtime_error);

@@ -136,6 +136,20 @@ TEST(LogIndex, of_the_streams_alone_holds_no_motion) {
   EXPECT_EQ(labels_of(streams), labels_of(whole));
 }
 
+TEST(LogIndex, of_others_than_scans_and_images_keeps_the_stamps_that_tell_the_rate) {
+  const TestFolder folder;
+  constexpr std::size_t kPoses = 10010;
+  Objects objects;
+  for (std::size_t i = 0; i < kPoses; ++i)
+    objects.push_back(observation<mrpt::obs::CObservationRobotPose>("POSE", 0.01 * i));
+  const LogIndex index = index_of(objects, folder);
+  ASSERT_EQ(index.streams.size(), 1U);
+  EXPECT_EQ(index.streams[0].count, kPoses);
+  EXPECT_LT(index.streams[0].stamps.size(), kPoses);
+  EXPECT_NEAR(index.streams[0].median_period_s, 0.01, 1e-6);
+  EXPECT_EQ(index.poses.size(), kPoses);
+}
+
 TEST(LogIndex, of_two_pose_streams_the_longer_one_counts) {
   const TestFolder folder;
   Objects objects;

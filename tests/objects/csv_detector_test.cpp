@@ -95,6 +95,7 @@ TEST(CsvDetector, tells_the_line_of_a_bad_row) {
   complains("CAM,1.0,car,nan,1,2,30,40", "score is 'nan'");
   complains("CAM,1.0,car,1,30,2,1,40", "box is empty");
   complains("CAM,1.0,car,1,1,2,30,40,1.5", "track is '1.5'");
+  complains(std::string("\x1f\x8b\x08\0\n", 5), "no table in text");
 }
 
 TEST(CsvDetector, a_missing_file_is_named) {

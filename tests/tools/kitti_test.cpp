@@ -189,6 +189,28 @@ TEST(KittiCalibration, what_is_missing_is_named) {
   }
 }
 
+TEST(KittiCalibration, what_is_no_rotation_or_projection_is_named) {
+  const auto error_with = [](const std::string& file, const std::string& text) -> std::string {
+    const TestFolder folder;
+    write_kitti_calibration(folder.path());
+    std::ofstream(folder / file, std::ios::app) << text;
+    try {
+      static_cast<void>(read_calibration(folder.path().string()));
+    } catch (const std::runtime_error& error) {
+      return error.what();
+    }
+    return "none";
+  };
+  const std::string no_rotation = "calib_velo_to_cam.txt: entry 'R' is no rotation";
+  for (const char* R : {"0 0 0 0 0 0 0 0 0", "-1 0 0 0 1 0 0 0 1", "1e308 0 0 0 1 0 0 0 1"})
+    EXPECT_TRUE(
+        contains(error_with("calib_velo_to_cam.txt", "\nR: " + std::string(R) + "\n"), no_rotation))
+        << R;
+  EXPECT_TRUE(contains(error_with("calib_cam_to_cam.txt", "\nP_rect_02: 0 0 0 0 0 0 0 0 0 0 1 0\n"),
+                       "entry 'P_rect_02' is no camera's projection"));
+  EXPECT_EQ(error_with("calib_cam_to_cam.txt", "\n"), "none");
+}
+
 Pose oxts_pose(OxtsReader& reader, const TestFolder& folder, const std::string& line) {
   std::ofstream(folder / "oxts.txt") << line;
   return reader.T_world_vehicle(folder / "oxts.txt");

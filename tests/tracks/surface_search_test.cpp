@@ -105,6 +105,12 @@ TEST_F(Board, whose_place_is_known_to_some_pixels_is_not_searched_for) {
   EXPECT_FALSE(search(moved(0, 0.1, 0), 0.05));
 }
 
+TEST_F(Board, that_may_be_anywhere_is_looked_for_at_no_more_places_than_there_is_time_for) {
+  const auto found = search(moved(0, 0.8, 0), 1e6);
+  ASSERT_TRUE(found);
+  EXPECT_TRUE(found->matrix().allFinite());
+}
+
 TEST_F(Board, that_went_farther_than_expected_is_not_found_there) {
   const Pose truth = moved(0, 3, 0);
   const auto found = search(truth, 0.8);

@@ -104,11 +104,11 @@ Plot binned_plot(const Binned& binned) {
 /// Those of the objects that every row is judged by: ours is known.
 std::vector<double> errors_of(const LogResult& result, bool moving, Row row) {
   std::vector<double> errors;
-  for (const ScanResult& scan : result.scans)
+  result.scans.for_each([&](const ScanResult& scan) {
     for (const ObjectResult& object : scan.objects)
-      if (object.object.moving == moving && object.object.excluded.empty() &&
-          object.errors[Row::ours] && object.errors[row])
+      if (object.object.moving == moving && is_counted(object) && object.errors[row])
         errors.push_back(drawn(object.errors[row]->position_m));
+  });
   std::sort(errors.begin(), errors.end());
   return errors;
 }

@@ -109,7 +109,7 @@ void add_comparison(const Comparison& comparison, const DrawnPlots& plots,
   }
   sections.push_back(
       {"worst", "Worst objects",
-       worst_objects_html(comparison.worst.found(), comparison.result.scans.front().key_stamp)});
+       worst_objects_html(comparison.worst.found(), comparison.result.scans.first_key_stamp())});
 }
 
 std::string fact(const std::string& name, const std::string& text) {

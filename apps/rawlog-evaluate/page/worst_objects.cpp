@@ -117,9 +117,7 @@ std::string key_html() {
 
 void WorstObjects::add(const ScanSet& scans, const ScanResult& result, const Pictured& pictures) {
   for (const ObjectResult& object : result.objects) {
-    if (!object.object.excluded.empty() || !object.errors[Row::ours] ||
-        object.object.points.empty())
-      continue;
+    if (!is_counted(object) || object.object.points.empty()) continue;
     const double error = object.errors[Row::ours]->position_m;
     if (found_.size() == capacity_ && error <= error_of(found_.back())) continue;
     ShownObject shown{object.object,

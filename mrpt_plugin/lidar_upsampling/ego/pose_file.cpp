@@ -30,11 +30,16 @@ std::vector<Line> read_lines(const std::string& path) {
   if (!file) throw std::runtime_error(path + ": cannot read this file of poses");
   std::vector<Line> lines;
   std::string text;
-  for (std::size_t number = 1; std::getline(file, text); ++number) {
-    std::istringstream stream(text.substr(0, text.find('#')));
-    Line line{number, {}};
-    for (std::string word; stream >> word;) line.words.push_back(word);
-    if (!line.words.empty()) lines.push_back(std::move(line));
+  std::size_t number = 1;
+  try {
+    for (; next_line(file, text); ++number) {
+      std::istringstream stream(text.substr(0, text.find('#')));
+      Line line{number, {}};
+      for (std::string word; stream >> word;) line.words.push_back(word);
+      if (!line.words.empty()) lines.push_back(std::move(line));
+    }
+  } catch (const std::invalid_argument& error) {
+    throw std::runtime_error(path + ", line " + std::to_string(number) + ": " + error.what());
   }
   if (lines.empty()) throw std::runtime_error(path + ": holds no poses");
   return lines;

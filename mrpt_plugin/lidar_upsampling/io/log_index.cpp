@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <utility>
 
 #include "lidar_upsampling/io/carriers.h"
 #include "lidar_upsampling/io/file_places.h"
@@ -21,6 +22,8 @@ namespace lidar_upsampling {
 namespace {
 
 using mrpt::obs::CObservation;
+
+constexpr std::size_t kStampsForRate = 10000;  // all of an hour would be megabytes
 
 StreamKind kind_of(const CObservation& observation) {
   if (is_lidar_scan(observation)) return StreamKind::lidar;
@@ -89,7 +92,9 @@ void LogIndexer::add_observation(const CObservation& observation) {
   const auto* const image = dynamic_cast<const mrpt::obs::CObservationImage*>(&observation);
   if (image != nullptr && !stream.calibrated()) stream.camera = camera_of(*image);
   if (observation.timestamp == INVALID_TIMESTAMP) return;
-  stream.stamps.push_back(observation.timestamp);
+  const bool is_seen = stream.kind == StreamKind::lidar || stream.kind == StreamKind::camera;
+  if (is_seen || stream.stamps.size() < kStampsForRate)
+    stream.stamps.push_back(observation.timestamp);
   if (with_ego_) ego_.add_observation(observation);
 }
 
@@ -110,11 +115,21 @@ void LogIndexer::add(const mrpt::serialization::CSerializable& object) {
 
 LogIndex LogIndexer::index() const {
   LogIndex index = index_;
+  complete(index);
+  return index;
+}
+
+LogIndex LogIndexer::take_index() {
+  LogIndex index = std::exchange(index_, {});
+  complete(index);
+  return index;
+}
+
+void LogIndexer::complete(LogIndex& index) const {
   for (StreamInfo& stream : index.streams) stream.median_period_s = median_period(stream.stamps);
   index.poses = ego_.poses();
   index.odometry = ego_.odometry();
   index.gnss = ego_.gnss();
-  return index;
 }
 
 namespace {
@@ -130,7 +145,7 @@ LogIndex indexed(LogIndexer indexer, const LogFile& log,
     indexer.add(*entry->object);
     if (progress) progress(reader.progress());
   }
-  LogIndex index = indexer.index();
+  LogIndex index = indexer.take_index();
   index.corruption = reader.damage();
   return index;
 }
@@ -141,8 +156,8 @@ LogIndex index_log(const LogFile& log, const std::function<void(double)>& progre
   return indexed(LogIndexer(log.path), log, progress);
 }
 
-LogIndex index_streams(const LogFile& log) {
-  return indexed(LogIndexer(log.path, false), log, nullptr);
+LogIndex index_streams(const LogFile& log, const std::function<void(double)>& progress) {
+  return indexed(LogIndexer(log.path, false), log, progress);
 }
 
 std::string labels_of(const LogIndex& index) {

@@ -25,7 +25,9 @@ struct StreamInfo {
   std::string class_name;  ///< without namespace, as "CObservationImage"
   StreamKind kind = StreamKind::other;
   std::size_t count = 0;
-  std::vector<Stamp> stamps;     ///< in the log's order; those without a valid one left out
+  /// In the log's order; those without a valid one left out. Of others than scans and images, the
+  /// first that tell the rate.
+  std::vector<Stamp> stamps;
   std::optional<Camera> camera;  ///< of a camera: that of its first picture that has one
   double median_period_s = 0;    ///< 0 with less than two stamps
 
@@ -62,10 +64,13 @@ class LogIndexer {
   [[nodiscard]] const LogIndex& so_far() const { return index_; }
   /// Of all that was added, and whose motion was not taken.
   [[nodiscard]] LogIndex index() const;
+  /// The same at the end: an index of an hour is not there twice.
+  [[nodiscard]] LogIndex take_index();
   [[nodiscard]] EgoNews take_ego() { return ego_.take(); }
 
  private:
   void add_observation(const mrpt::obs::CObservation& observation);
+  void complete(LogIndex& index) const;
 
   LogIndex index_;
   EgoSamples ego_;
@@ -80,7 +85,8 @@ class LogIndexer {
                                  const std::function<void(double)>& progress = nullptr);
 
 /// @brief The same without the vehicle's motion, which takes most of an index's memory.
-[[nodiscard]] LogIndex index_streams(const LogFile& log);
+[[nodiscard]] LogIndex index_streams(const LogFile& log,
+                                     const std::function<void(double)>& progress = nullptr);
 
 /// "LIDAR (lidar), CAM2 (camera), ...": one line, for messages on a label that is not there.
 [[nodiscard]] std::string labels_of(const LogIndex& index);

@@ -47,23 +47,13 @@ class CsvDetector : public Detector {
       throw std::runtime_error("cannot read the detections file '" + options.path +
                                "' (detector.csv: does it exist?)");
     }
-    int number = 0;
-    for (std::string line; std::getline(file, line);) {
-      ++number;
-      const std::vector<std::string> fields = comma_separated(line, kBlanks);
-      const bool blank = trimmed(line, kBlanks).empty() || fields[0].rfind('#', 0) == 0;
-      const bool header = number == 1 && fields.size() > 1 && fields[1] == "stamp";
-      if (blank || header) continue;
-      try {
-        if (fields.size() < 8 || fields.size() > 9) {
-          throw std::invalid_argument(std::to_string(fields.size()) + " columns");
-        }
-        boxes_[fields[0]][parse_stamp(fields[1])].push_back(parse_detection(fields));
-      } catch (const std::invalid_argument& error) {
-        throw std::runtime_error(
-            options.path + ", line " + std::to_string(number) + ": " + error.what() +
-            "; expected label,stamp,class,score,left,top,right,bottom[,track]");
-      }
+    std::size_t number = 1;
+    try {
+      for (std::string line; next_line(file, line); ++number) take_line(line, number == 1);
+    } catch (const std::invalid_argument& error) {
+      throw std::runtime_error(options.path + ", line " + std::to_string(number) + ": " +
+                               error.what() +
+                               "; expected label,stamp,class,score,left,top,right,bottom[,track]");
     }
     if (file.bad()) throw std::runtime_error("reading '" + options.path + "' failed");
   }
@@ -85,6 +75,16 @@ class CsvDetector : public Detector {
   }
 
  private:
+  void take_line(const std::string& line, bool is_first) {
+    const std::vector<std::string> fields = comma_separated(line, kBlanks);
+    const bool blank = trimmed(line, kBlanks).empty() || fields[0].rfind('#', 0) == 0;
+    const bool header = is_first && fields.size() > 1 && fields[1] == "stamp";
+    if (blank || header) return;
+    if (fields.size() < 8 || fields.size() > 9)
+      throw std::invalid_argument(std::to_string(fields.size()) + " columns");
+    boxes_[fields[0]][parse_stamp(fields[1])].push_back(parse_detection(fields));
+  }
+
   double tolerance_s_;
   std::map<std::string, std::map<Stamp, std::vector<Detection>>> boxes_;  // by label
 };

@@ -19,7 +19,8 @@ namespace {
 constexpr int kSearchHalf = 2, kSearchSide = 2 * kSearchHalf + 1;  // pixels of a picture's level
 constexpr double kStep_px = 2;  // between places that are tried: a patch still looks alike halfway
 constexpr double kMostSigmas = 2;  // what is farther is not tried
-constexpr int kMostSteps = 40;     // along an axis; wider grids begin on smaller pictures
+constexpr int kMostSteps = 40;     // along an axis; wider grids begin on smaller pictures,
+                                   // and on the smallest end there
 constexpr std::size_t kMostPoints = 40;
 constexpr int kRounds = 2;  // on each level
 
@@ -112,6 +113,12 @@ Eigen::Matrix3d steps_of_a_pixel(const LostSurface& lost, const Eigen::Vector3d&
   return steps;
 }
 
+/// Either way. Of what is expected nowhere, none.
+int steps_within(double reach_px, double step_px) {
+  const double steps = reach_px / step_px;
+  return steps > 0 ? static_cast<int>(std::min<double>(steps, kMostSteps)) : 0;
+}
+
 /// What is tried on a level, about a middle.
 struct Grid {
   Eigen::Matrix3d steps;       ///< in columns
@@ -166,8 +173,7 @@ std::optional<Pose> search_surface(const LostSurface& lost, const PlanarStep& ex
           likest(surface, {pixels * step_px(now), count}, astray, middle, expected, information);
     };
     if (now == level)
-      look({static_cast<int>(aside_px / step_px(now)), static_cast<int>(reach_px(1) / step_px(now)),
-            0});
+      look({steps_within(aside_px, step_px(now)), steps_within(reach_px(1), step_px(now)), 0});
     for (int round = 0; round < kRounds; ++round) look({1, 1, 1});
   }
   return motion_of(expected.mean + astray, middle);
