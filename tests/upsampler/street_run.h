@@ -37,9 +37,9 @@ trees = 0.2
 pedestrians = 0
 crossing = false
 [camera.CAM0]
-width = 828
-height = 250
-fx = 480
+width = 621
+height = 188
+fx = 360
 rate_hz = 30
 [vehicle.lead]
 x_m = 14

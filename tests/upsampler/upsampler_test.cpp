@@ -222,7 +222,7 @@ TEST(LidarUpsampler, lens_distortion_is_taken_into_account) {
 
 TEST(LidarUpsampler, two_cameras_make_one_virtual_scan_per_instant) {
   StreetRun street(
-      "[camera.REAR]\nwidth = 828\nheight = 250\nfx = 480\nrate_hz = 30\norientation_deg = 180 0 "
+      "[camera.REAR]\nwidth = 621\nheight = 188\nfx = 360\nrate_hz = 30\norientation_deg = 180 0 "
       "0\n"
       "[vehicle.behind]\nx_m = -16\ny_m = -1.7\nspeed_mps = 12\n");
   LidarUpsampler upsampler{moving_points()};
@@ -253,7 +253,7 @@ TEST(LidarUpsampler, images_of_one_instant_make_one_virtual_scan_when_all_are_th
 
 TEST(LidarUpsampler, a_car_stays_one_track_and_in_place_from_one_camera_to_the_next) {
   StreetRun street(
-      "[camera.LEFT]\nwidth = 828\nheight = 250\nfx = 480\nrate_hz = 30\norientation_deg = 80 0 "
+      "[camera.LEFT]\nwidth = 621\nheight = 188\nfx = 360\nrate_hz = 30\norientation_deg = 80 0 "
       "0\n"
       "[vehicle.passing]\nx_m = 14\ny_m = 2.6\nyaw_deg = 180\nspeed_mps = 11\n");
   LidarUpsampler upsampler{moving_points()};
