@@ -10,7 +10,9 @@
 #include <mrpt/serialization/CArchive.h>
 
 #include <algorithm>
+#include <array>
 #include <limits>
+#include <list>
 #include <memory>
 #include <new>
 #include <thread>
@@ -51,6 +53,17 @@ TEST(ReadingGuard, memory_that_the_rest_of_a_file_cannot_fill_is_refused) {
   const ReadingGuard guard([] { return 1000000; });
   EXPECT_THROW(make_numbers(), std::bad_alloc);
   EXPECT_THROW(mrpt::obs::CObservation3DRangeScan().rangeImage_setSize(3001, 3000), std::bad_alloc);
+}
+
+TEST(ReadingGuard, many_small_pieces_that_the_rest_cannot_fill_are_refused) {
+  const auto make_list = [](std::size_t count) {
+    std::list<std::array<char, 1000>> list;
+    for (std::size_t i = 0; i < count; ++i) list.emplace_back();
+    return list.size();
+  };
+  const ReadingGuard guard([] { return 1000000; });
+  EXPECT_EQ(make_list(10000), 10000U);
+  EXPECT_THROW(make_list(100000), std::bad_alloc);
 }
 
 TEST(ReadingGuard, memory_that_it_can_fill_is_given) {

@@ -27,6 +27,8 @@ namespace lidar_upsampling {
 namespace {
 
 constexpr std::uint64_t kAlwaysFine = 1U << 24U;
+// Of small pieces: lists keep some more than what is stored, and what is given back counts, too.
+constexpr std::uint64_t kPiecesAlwaysFine = 1U << 26U, kPiecesPerByte = 16;
 
 thread_local ReadingGuard* innermost = nullptr;
 
@@ -41,11 +43,22 @@ class TooMuch : public std::bad_alloc {
 };
 
 // Destructors of MRPT's ask for memory, too, and an exception out of them would be the end.
-void refuse_excess(std::uint64_t size, std::uint64_t per_byte = 1) {
-  if (size <= kAlwaysFine || innermost == nullptr || std::uncaught_exceptions() > 0) return;
+bool may_refuse() { return innermost != nullptr && std::uncaught_exceptions() == 0; }
+
+void refuse_excess(std::uint64_t size, std::uint64_t per_byte) {
+  if (size <= kAlwaysFine || !may_refuse()) return;
   ReadingGuard& guard = *innermost;
   const ReadingGuard::Pause pause;  // it asks for memory itself
   guard.check(size, per_byte);
+}
+
+void refuse_excess(std::uint64_t size) {
+  if (innermost == nullptr) return;
+  refuse_excess(size, 1);
+  ReadingGuard& guard = *innermost;
+  if (guard.count(size) <= kPiecesAlwaysFine || !may_refuse()) return;
+  const ReadingGuard::Pause pause;
+  guard.check_all();
 }
 
 void* aligned_malloc(std::size_t size, std::size_t alignment) {
@@ -175,13 +188,22 @@ ReadingGuard::ReadingGuard(BytesLeft bytes_left)
 
 ReadingGuard::~ReadingGuard() { innermost = outer_; }
 
-void ReadingGuard::check(std::uint64_t size, std::uint64_t per_byte) {
+std::uint64_t ReadingGuard::left() {
   constexpr std::uint64_t kMostUnknown = 1U << 30U;
   if (!left_) {
     const std::optional<std::uint64_t> left = bytes_left_();
     left_ = left ? *left : kMostUnknown;
   }
-  if (size > kAlwaysFine + *left_ * per_byte) throw TooMuch(size);
+  return *left_;
+}
+
+void ReadingGuard::check(std::uint64_t size, std::uint64_t per_byte) {
+  if (size > kAlwaysFine + left() * per_byte) throw TooMuch(size);
+}
+
+void ReadingGuard::check_all() {
+  if (count_ <= kPiecesAlwaysFine + left() * kPiecesPerByte) return;
+  throw TooMuch(std::exchange(count_, 0));  // who catches it needs some, too
 }
 
 }  // namespace lidar_upsampling

@@ -14,8 +14,9 @@ namespace lidar_upsampling {
 inline constexpr const char* kBrokenJpeg = "a JPEG picture is broken: ";
 
 /// @brief While it lives, MRPT believes nothing that it reads on this thread: a piece of memory
-/// beyond what an object and the rest of the file can fill is refused by std::bad_alloc. MRPT
-/// stores nothing smaller than it is in memory, but for pictures, which libjpeg makes.
+/// beyond what an object and the rest of the file can fill is refused by std::bad_alloc, and so are
+/// many small ones. MRPT stores nothing smaller than it is in memory, but for pictures, which
+/// libjpeg makes.
 ///
 /// With the first one, this holds for the whole process and all threads: where memory is short,
 /// MRPT's aligned vectors throw std::bad_alloc (MRPT 2.5.8 uses the null pointer); a broken JPEG
@@ -45,14 +46,21 @@ class ReadingGuard {
   ReadingGuard(const ReadingGuard&) = delete;
   ReadingGuard& operator=(const ReadingGuard&) = delete;
 
+  /// @return all bytes that were asked for so far, these among them.
+  std::uint64_t count(std::uint64_t size) { return count_ += size; }
+
   /// @throw std::bad_alloc that says how many bytes. @param per_byte bytes that one of the file may
   /// unpack to.
   void check(std::uint64_t size, std::uint64_t per_byte);
+  void check_all();  ///< likewise, of all that was counted
 
  private:
+  std::uint64_t left();
+
   Silence silence_;
   BytesLeft bytes_left_;
   std::optional<std::uint64_t> left_;  // once asked for
+  std::uint64_t count_ = 0;
   ReadingGuard* outer_;
 };
 
