@@ -238,10 +238,6 @@ class Checker {
   FileNames names_;
 };
 
-}  // namespace
-
-namespace {
-
 void feed_entry(const RawlogEntry& entry, Checker& checker) {
   if (const auto* frame = dynamic_cast<const mrpt::obs::CSensoryFrame*>(entry.object.get()))
     for (const CObservation::Ptr& observation : *frame) checker.feed(observation);
