@@ -62,6 +62,11 @@ Pose renormalized(const Pose& pose) {
   return result;
 }
 
+bool is_possible(const Pose& pose) {
+  constexpr double kFarthest = 1e8;  // m
+  return pose.matrix().allFinite() && pose.translation().cwiseAbs().maxCoeff() < kFarthest;
+}
+
 double rotation_angle(const Pose& pose) { return Eigen::AngleAxisd(pose.linear()).angle(); }
 
 }  // namespace lidar_upsampling

@@ -36,6 +36,11 @@ using Matrix6d = Eigen::Matrix<double, 6, 6>;
 /// A proper rotation again, after many products.
 [[nodiscard]] Pose renormalized(const Pose& pose);
 
+/// @brief Whether it can be a pose on Earth: finite, and within 1e8 m of the origin, where
+/// geocentric and UTM coordinates stay below 1e7. What damaged logs hold may be a finite double
+/// that is no finite float.
+[[nodiscard]] bool is_possible(const Pose& pose);
+
 /// Rotation angle in radians.
 [[nodiscard]] double rotation_angle(const Pose& pose);
 

@@ -4,10 +4,11 @@
 
 #include <cstdint>
 #include <cstring>
-#include <fstream>
 #include <map>
 #include <sstream>
 #include <stdexcept>
+
+#include "import/input_file.h"
 
 namespace lidar_upsampling::argoverse {
 namespace {
@@ -148,7 +149,7 @@ const std::vector<double>& PlyVertices::property(const std::string& name) const 
 }
 
 PlyVertices read_ply(const std::string& path) {
-  std::ifstream in(path, std::ios::binary);
+  std::ifstream in = importing::open_file(path, std::ios::binary);
   if (!in) refuse(path, "cannot be read");
   const Header header = read_header(in, path);
   PlyVertices vertices;

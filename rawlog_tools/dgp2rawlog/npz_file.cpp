@@ -6,11 +6,12 @@
 
 #include <cstdint>
 #include <cstring>
-#include <fstream>
 #include <iterator>
 #include <regex>
 #include <stdexcept>
 #include <vector>
+
+#include "import/input_file.h"
 
 namespace lidar_upsampling::dgp {
 namespace {
@@ -124,7 +125,7 @@ Rows rows_of(const Bytes& npy, const Npy& header) {
 }  // namespace
 
 Rows read_npz(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
+  std::ifstream file = importing::open_file(path, std::ios::binary);
   if (!file) throw std::runtime_error("cannot read " + path);
   const Bytes zip{std::istreambuf_iterator<char>(file), {}};
   try {

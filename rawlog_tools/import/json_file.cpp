@@ -2,13 +2,14 @@
 // Copyright (c) 2026, the lidar_upsampling authors
 #include "import/json_file.h"
 
-#include <fstream>
 #include <stdexcept>
+
+#include "import/input_file.h"
 
 namespace lidar_upsampling::importing {
 
 void with_json(const std::string& path, const std::function<void(const nlohmann::json&)>& use) {
-  std::ifstream in(path);
+  std::ifstream in = open_file(path);
   if (!in) throw std::runtime_error("cannot read " + path);
   try {
     use(nlohmann::json::parse(in));

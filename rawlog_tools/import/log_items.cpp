@@ -12,6 +12,7 @@
 #include <stdexcept>
 #include <system_error>
 
+#include "import/input_file.h"
 #include "lidar_upsampling/io/images.h"
 #include "lidar_upsampling/io/reading_guard.h"
 
@@ -19,6 +20,7 @@ namespace lidar_upsampling::importing {
 namespace {
 
 cv::Mat load_picture(const std::string& path) {
+  check_is_no_pipe(path);
   std::error_code not_there;
   const auto size = std::filesystem::file_size(path, not_there);
   const ReadingGuard guard([&] { return not_there ? 0 : size; });

@@ -2,9 +2,10 @@
 // Copyright (c) 2026, the lidar_upsampling authors
 #include "kitti2rawlog/kitti_calibration.h"
 
-#include <fstream>
 #include <sstream>
 #include <stdexcept>
+
+#include "import/input_file.h"
 
 namespace lidar_upsampling::kitti {
 namespace {
@@ -88,7 +89,7 @@ Camera camera_of_drive(const Entries& entries, int number, const Pose& T_rectifi
 }  // namespace
 
 CalibrationFile read_calibration_file(const std::string& path) {
-  std::ifstream in(path);
+  std::ifstream in = importing::open_file(path);
   if (!in) throw std::runtime_error("cannot read the calibration " + path);
   CalibrationFile file;
   for (std::string line; std::getline(in, line);) {

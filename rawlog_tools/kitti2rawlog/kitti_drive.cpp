@@ -5,8 +5,9 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
 #include <stdexcept>
+
+#include "import/input_file.h"
 
 namespace fs = std::filesystem;
 
@@ -68,7 +69,7 @@ std::optional<Stamp> parse_stamp(const std::string& text) {
 }
 
 FrameStamps read_stamps(const std::string& path) {
-  std::ifstream in(path);
+  std::ifstream in = importing::open_file(path);
   if (!in) throw std::runtime_error("cannot read the time stamps " + path);
   FrameStamps stamps;
   for (std::string line; std::getline(in, line);) {

@@ -2,16 +2,16 @@
 // Copyright (c) 2026, the lidar_upsampling authors
 #include "kitti2rawlog/kitti_frames.h"
 
-#include <fstream>
 #include <stdexcept>
 
+#include "import/input_file.h"
 #include "kitti2rawlog/hdl64_rings.h"
 
 namespace lidar_upsampling::kitti {
 namespace {
 
 std::vector<float> read_floats(const std::string& path) {
-  std::ifstream in(path, std::ios::binary | std::ios::ate);
+  std::ifstream in = importing::open_file(path, std::ios::binary | std::ios::ate);
   if (!in) throw std::runtime_error("cannot read the scan " + path);
   const auto num_bytes = static_cast<std::size_t>(in.tellg());
   if (num_bytes % (4 * sizeof(float)) != 0) {
@@ -44,7 +44,7 @@ LidarScan read_scan(const Frame& frame, const Pose& T_vehicle_lidar) {
 }
 
 Pose OxtsReader::T_world_vehicle(const std::string& path) {
-  std::ifstream in(path);
+  std::ifstream in = importing::open_file(path);
   double latitude = 0, longitude = 0, height = 0, roll = 0, pitch = 0, yaw = 0;
   if (!(in >> latitude >> longitude >> height >> roll >> pitch >> yaw)) {
     throw std::runtime_error(path +

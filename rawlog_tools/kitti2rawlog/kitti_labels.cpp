@@ -4,12 +4,13 @@
 
 #include <charconv>
 #include <cmath>
-#include <fstream>
 #include <optional>
 #include <set>
 #include <sstream>
 #include <stdexcept>
 #include <utility>
+
+#include "import/input_file.h"
 
 namespace lidar_upsampling::kitti {
 namespace {
@@ -93,7 +94,7 @@ LabelRow row_from(const LabelLine& line) {
 }  // namespace
 
 std::vector<LabelRow> read_labels(const std::string& path) {
-  std::ifstream in(path);
+  std::ifstream in = importing::open_file(path);
   if (!in) throw std::runtime_error("cannot read the labels " + path);
   std::vector<LabelRow> rows;
   std::set<std::pair<int, int>> seen;

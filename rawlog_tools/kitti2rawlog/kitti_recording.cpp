@@ -59,7 +59,7 @@ void read_sequence_poses(const fs::path& sequence, const FrameStamps& stamps,
                          Recording& recording) {
   const std::string name = "poses/" + sequence.filename().string() + ".txt";
   const fs::path file = sequence.parent_path().parent_path() / name;
-  if (!fs::is_regular_file(file)) return;
+  if (!fs::exists(file)) return;
   const std::vector<Pose> poses = read_poses(file.string(), T_vehicle_camera_0);
   recording.pose_frames = pose_rows(name, poses.size(), stamps, range);
   for (const Frame& frame : recording.pose_frames.files.frames) {

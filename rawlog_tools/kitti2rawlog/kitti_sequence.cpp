@@ -3,10 +3,10 @@
 #include "kitti2rawlog/kitti_sequence.h"
 
 #include <cmath>
-#include <fstream>
 #include <sstream>
 #include <stdexcept>
 
+#include "import/input_file.h"
 #include "lidar_upsampling/se3.h"
 
 namespace lidar_upsampling::kitti {
@@ -29,7 +29,7 @@ std::vector<double> numbers_of(const std::string& line) {
 // The rows of a table of numbers; empty lines at its end do not count.
 std::vector<std::vector<double>> read_rows(const std::string& path, const std::string& what,
                                            std::size_t columns) {
-  std::ifstream in(path);
+  std::ifstream in = importing::open_file(path);
   if (!in) throw std::runtime_error("cannot read the " + what + " " + path);
   std::vector<std::vector<double>> rows;
   for (std::string line; std::getline(in, line);) {

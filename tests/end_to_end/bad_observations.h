@@ -81,7 +81,18 @@ inline std::vector<BadObservation> bad_observations() {
          dynamic_cast<mrpt::obs::CObservationRobotPose&>(o).pose.mean.y(kNoNumber);
        },
        {}},
+      {"POSE",
+       "beyond 1e8 m",
+       [](CObservation& o) {
+         dynamic_cast<mrpt::obs::CObservationRobotPose&>(o).pose.mean.x(-1e300);
+       },
+       {}},
+      {"LIDAR",
+       "beyond 1e8 m",
+       [](CObservation& o) { o.setSensorPose(mrpt::poses::CPose3D(1e300, 0, 0, 0, 0, 0)); },
+       {}},
       {"ODO", "not finite", {}, odometry_of(kNoNumber)},
+      {"ODO", "beyond 1e8 m", {}, odometry_of(1e300)},
       {"GNSS", "globe", {}, fix_of(kNoNumber)},
       {"GNSS", "globe", {}, fix_of(120)},
   };

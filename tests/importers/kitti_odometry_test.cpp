@@ -102,5 +102,31 @@ TEST(KittiOdometryLayout, what_is_wrong_is_named) {
   EXPECT_EQ(import_sequence(sequence, folder, "--boxes " + folder / "b.csv").status, 2);
 }
 
+TEST(KittiOdometryLayout, a_pipe_in_place_of_a_file_is_named_and_not_waited_for) {
+  const TestFolder folder;
+  const fs::path sequence = write_sequence(folder.path(), SmallStreet());
+  const auto import_with_pipe = [&](const fs::path& file) {
+    const fs::path kept = folder.path() / "kept";
+    fs::rename(file, kept);
+    EXPECT_EQ(run("mkfifo " + file.string()).status, 0);
+    const ToolResult result =
+        run("timeout 60 " + std::string(KITTI2RAWLOG) + " --sequence " + sequence.string() +
+            " --output " + folder / "out.rawlog" + " --overwrite");
+    fs::rename(kept, file);
+    return result;
+  };
+  for (const fs::path& file :
+       {sequence / "times.txt", sequence / "calib.txt", folder.path() / "poses/04.txt"}) {
+    const ToolResult result = import_with_pipe(file);
+    EXPECT_EQ(result.status, 1) << file;
+    EXPECT_TRUE(contains(result.text, file.string() + " is a pipe")) << result.text;
+  }
+  for (const fs::path& file : {sequence / "velodyne/000001.bin", sequence / "image_2/000001.png"}) {
+    const ToolResult result = import_with_pipe(file);
+    EXPECT_EQ(result.status, 0) << file;
+    EXPECT_TRUE(contains(result.text, "1 of 4 frames missing")) << result.text;
+  }
+}
+
 }  // namespace
 }  // namespace lidar_upsampling

@@ -26,8 +26,9 @@ struct GnssSample {
 
 /// Whether its numbers are finite, and a place on Earth.
 [[nodiscard]] inline bool is_on_globe(const GnssSample& sample) {
+  constexpr double kFarthest_m = 1e6;  // above it, and from the vehicle: nobody drives there
   return std::abs(sample.latitude_deg) <= 90 && std::abs(sample.longitude_deg) <= 540 &&
-         std::isfinite(sample.height_m) && sample.antenna_in_vehicle.allFinite();
+         std::abs(sample.height_m) < kFarthest_m && sample.antenna_in_vehicle.norm() < kFarthest_m;
 }
 
 /// @brief The vehicle's motion from position fixes alone, in local east-north-up metres about the

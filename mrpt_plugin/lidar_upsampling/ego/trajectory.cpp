@@ -24,10 +24,11 @@ Pose interpolate(const Pose& a, const Pose& b, double share) {
 }  // namespace
 
 void Trajectory::add(const PoseSample& sample) {
-  if (!sample.T_world_vehicle.matrix().allFinite())
-    throw std::invalid_argument("a vehicle pose has a number that is not finite, at stamp " +
-                                std::to_string(sample.stamp.time_since_epoch().count()) +
-                                " (ticks): check the source of the poses");
+  if (!is_possible(sample.T_world_vehicle))
+    throw std::invalid_argument(
+        "a vehicle pose has a number that is not finite, or beyond 1e8 m, at stamp " +
+        std::to_string(sample.stamp.time_since_epoch().count()) +
+        " (ticks): check the source of the poses");
   T_world_vehicle_[sample.stamp] = sample.T_world_vehicle;
 }
 

@@ -52,7 +52,7 @@ class Trajectory {
   explicit Trajectory(const InterpolationLimits& limits = {}) : limits_(limits) {}
 
   /// A second sample with the same stamp replaces the first.
-  /// @throw std::invalid_argument the pose has a number that is not finite.
+  /// @throw std::invalid_argument the pose is not is_possible().
   void add(const PoseSample& sample);
 
   /// @return linear in translation, slerp in rotation; constant body twist outside the samples,

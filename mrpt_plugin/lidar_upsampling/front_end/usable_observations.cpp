@@ -11,6 +11,7 @@
 #include "lidar_upsampling/io/carriers.h"
 #include "lidar_upsampling/io/ego_samples.h"
 #include "lidar_upsampling/io/images.h"
+#include "lidar_upsampling/se3.h"
 #include "lidar_upsampling/text.h"
 
 namespace lidar_upsampling {
@@ -18,9 +19,7 @@ namespace {
 
 using mrpt::obs::CObservation;
 
-constexpr const char* kNoPose = "its pose on the vehicle is not finite";
-
-bool is_finite(const Pose& pose) { return pose.matrix().allFinite(); }
+constexpr const char* kNoPose = "its pose on the vehicle is not finite, or beyond 1e8 m";
 
 // The principal point may lie anywhere: settings are free to say so.
 bool is_finite(const CameraModel& model) {
@@ -72,7 +71,7 @@ std::optional<LidarScan> UsableObservations::scan(const CObservation& observatio
   }
   if (!scan) return {};
   apply(rig_, *scan);
-  if (!is_finite(scan->T_vehicle_lidar)) return refuse(observation, kNoPose);
+  if (!is_possible(scan->T_vehicle_lidar)) return refuse(observation, kNoPose);
   if (drop_points_without_time(*scan, sweep_) > 0)
     refuse(observation, "some points, which have no time within a second of the scan's");
   if (scan->points.empty()) return refuse(observation, "it has no points");
@@ -84,7 +83,7 @@ std::optional<CameraImage> UsableObservations::image(
   if (const auto defect = stamp_defect_of(observation)) return refuse(observation, *defect);
   Camera camera = camera_of(observation);
   apply(rig_, camera);
-  if (!is_finite(camera.T_vehicle_camera)) return refuse(observation, kNoPose);
+  if (!is_possible(camera.T_vehicle_camera)) return refuse(observation, kNoPose);
   if (!is_finite(camera.model))
     return refuse(observation, "its calibration has numbers that cannot be");
   CameraImage image;

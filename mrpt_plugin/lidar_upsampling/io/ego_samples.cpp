@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "lidar_upsampling/io/images.h"
+#include "lidar_upsampling/se3.h"
 
 namespace lidar_upsampling {
 namespace {
@@ -83,14 +84,14 @@ void ActionOdometry::add(const mrpt::obs::CActionCollection& actions) {
     step = from_mrpt(mrpt::poses::CPose3D(planar->poseChange->getMeanVal()));
   else if (const auto spatial = actions.getActionByClass<mrpt::obs::CActionRobotMovement3D>())
     step = from_mrpt(spatial->poseChange.mean);
-  if (step && !step->matrix().allFinite()) step = Pose::Identity();
+  if (step && !is_possible(*step)) step = Pose::Identity();
   if (step) T_world_vehicle_ = T_world_vehicle_.value_or(Pose::Identity()) * *step;
 }
 
 std::optional<std::string> ego_defect_of(const mrpt::obs::CObservation& observation) {
   const auto sample = pose_of(observation);
-  if (sample && !sample->T_world_vehicle.matrix().allFinite())
-    return "its pose has a number that is not finite";
+  if (sample && !is_possible(sample->T_world_vehicle))
+    return "its pose has a number that is not finite, or beyond 1e8 m";
   const auto* const gps = dynamic_cast<const mrpt::obs::CObservationGPS*>(&observation);
   const auto fix = gps != nullptr ? gnss_sample(*gps) : std::nullopt;
   if (fix && !is_on_globe(*fix)) return "its fix lies off the globe, or is not finite";

@@ -56,7 +56,7 @@ class Coverage {
   [[nodiscard]] Cover of(const Outline& outline) {
     const float x = 0.25F * outline.x.sum(), y = 0.25F * outline.y.sum();
     const float sq_distance = x * x + y * y;
-    if (!(sq_distance > kNearest * kNearest)) return {};
+    if (!(sq_distance > kNearest * kNearest) || !std::isfinite(sq_distance)) return {};
     const Eigen::Array4f ahead = (outline.x * x + outline.y * y).max(0.1F * sq_distance);
     const Eigen::Array4f sideways = (outline.y * x - outline.x * y) / ahead;
     const Eigen::Array4f inverse_distance =
@@ -94,8 +94,9 @@ class Coverage {
 void add_prints(const Cover& cover, int patch, const Columns& columns, FootprintsOfRow& prints) {
   int first = columns.at(cover.right), last = columns.at(cover.left);
   if (last - first >= columns.number) first = 0, last = columns.number - 1;
-  if (first < 0) first += columns.number, last += columns.number;
-  if (first >= columns.number) first -= columns.number, last -= columns.number;
+  const int wrapped = (first % columns.number + columns.number) % columns.number;
+  last += wrapped - first;
+  first = wrapped;
   const int end = columns.number - 1;
   for (int row = cover.first; row < cover.end; ++row) {
     prints.on_row[row].push_back({patch, first, std::min(last, end)});
