@@ -83,7 +83,9 @@ Tracklet tracklet_from(const Element& item) {
   tracklet.type = item.text("objectType");
   tracklet.size = {item.number("l"), item.number("w"), item.number("h")};
   if (!(tracklet.size.minCoeff() > 0)) item.fail("a box without extent");
-  tracklet.first_frame = static_cast<int>(item.number("first_frame"));
+  const double first_frame = item.number("first_frame");
+  if (!(std::abs(first_frame) < 1e9)) item.fail("<first_frame> in it is no frame");
+  tracklet.first_frame = static_cast<int>(first_frame);
   for (const Element& pose : item.child("poses").children("item")) {
     tracklet.poses.push_back(placed(pose, tracklet.size.z()));
   }
@@ -97,6 +99,8 @@ std::vector<Tracklet> read_tracklets(const std::string& path) {
   if (document.LoadFile(path.c_str()) != tinyxml2::XML_SUCCESS) {
     throw std::runtime_error("cannot read the tracklets " + path + ": " + document.ErrorStr());
   }
+  if (document.RootElement() == nullptr)
+    throw std::runtime_error("the tracklets " + path + " hold nothing");
   const Element root(document.RootElement(), path);
   std::vector<Tracklet> tracklets;
   for (const Element& item : root.child("tracklets").children("item")) {

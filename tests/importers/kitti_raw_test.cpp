@@ -130,5 +130,24 @@ TEST(KittiRawLayout, labels_without_oxts_or_tracklets_are_refused_in_one_line) {
   EXPECT_EQ(run(command(drive, folder)).status, 0);  // the log alone needs neither
 }
 
+TEST(KittiRawLayout, tracklets_that_are_none_are_refused_in_one_line) {
+  const TestFolder folder;
+  const fs::path drive = write_drive(folder.path() / "day", SmallStreet());
+  std::ifstream whole(drive / "tracklet_labels.xml");
+  const std::string good{std::istreambuf_iterator<char>(whole), {}};
+  const std::string tag = "<first_frame>";
+  const auto expect_refused = [&](const std::string& xml, const std::string& why) {
+    std::ofstream(drive / "tracklet_labels.xml") << xml;
+    const ToolResult result = run_for_errors(command(drive, folder) + label_options(folder));
+    EXPECT_EQ(result.status, 1);
+    EXPECT_EQ(std::count(result.text.begin(), result.text.end(), '\n'), 1) << result.text;
+    EXPECT_TRUE(contains(result.text, why)) << result.text;
+  };
+  ASSERT_NE(good.find(tag), std::string::npos);
+  expect_refused("<!-- none -->\n", "hold nothing");
+  expect_refused("<?xml version=\"1.0\"?><boost_serialization/>", "no <tracklets>");
+  expect_refused(std::string(good).insert(good.find(tag) + tag.size(), "9e99"), "first_frame");
+}
+
 }  // namespace
 }  // namespace lidar_upsampling
