@@ -33,7 +33,7 @@ void draw_grid(cv::Mat& picture, const BirdView& view) {
     cv::putText(picture, std::to_string(cvRound(range)) + " m", at, cv::FONT_HERSHEY_SIMPLEX, 0.4,
                 {120, 110, 105}, 1, cv::LINE_AA);
   }
-  const double size = 0.4 * step_of_rings(view) / view.ahead_m * 12;  // of the vehicle's arrow
+  const double size = 11 / view.pixels_per_m;  // of the vehicle's arrow
   const auto corner = [&](double x, double y) {
     return cv::Point(view.at({x * size, y * size, 0}));
   };
