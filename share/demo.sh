@@ -11,7 +11,7 @@ mkdir -p "$out"
 if [ ! -x "$bin/rawlog-evaluate" ]; then
   cat <<END
 The first time this installs packages (some 0.5 GB to load, 3 GB of disk) and builds, which takes about ten minutes on two cores;
-then, and every time after, it runs for a minute or two. The build's log: $out/build.log
+then it runs for a minute or two. What is made already is not made again. The build's log: $out/build.log
 END
 fi
 bash share/install-deps.sh
@@ -27,16 +27,30 @@ else
     { tail -n 30 "$out/build.log" >&2; echo "demo: the build failed, see $out/build.log" >&2; exit 1; }
 fi
 
-echo "Simulating a street with a 10 Hz LiDAR and a 30 Hz camera ..."
-"$bin/rawlog-simulate" --scenario config/scenarios/demo.ini --output "$out/sim.rawlog" --truth "$out/truth.rawlog" --overwrite \
-  > "$out/simulation.txt"
-echo "Densifying it, and drawing ..."
-rm -rf "$out/pictures"
-"$bin/rawlog-densify" --config config/default.ini --input "$out/sim.rawlog" --output "$out/dense.rawlog" --overwrite \
-  --report "$out/report.json" --pictures "$out/pictures" --film "$out/film.mp4" > "$out/densification.txt"
-echo "Judging it by the truth ..."
-"$bin/rawlog-evaluate" --reference "$out/truth.rawlog" --input "$out/dense.rawlog" --truth-objects "$out/sim_objects.csv" \
-  --report "$out/report.json" --max-range 40 --csv "$out/figures.csv" --html "$out/page.html" > "$out/tables.txt"
+# Whether a file is newer than all that it is made from.
+is_made() {
+  local from
+  for from in "${@:2}"; do [ "$1" -nt "$from" ] || return 1; done
+}
+
+if ! is_made "$out/truth.rawlog" "$bin/rawlog-simulate" config/scenarios/demo.ini || [ ! -e "$out/sim.rawlog" ]; then
+  echo "Simulating a street with a 10 Hz LiDAR and a 30 Hz camera ..."
+  "$bin/rawlog-simulate" --scenario config/scenarios/demo.ini --output "$out/sim.rawlog" --truth "$out/truth.rawlog" --overwrite \
+    > "$out/simulation.txt"
+fi
+dense=("$bin/rawlog-densify" config/default.ini "$out/sim.rawlog")
+if ! { is_made "$out/dense.rawlog" "${dense[@]}" && is_made "$out/report.json" "${dense[@]}" && is_made "$out/film.mp4" "${dense[@]}"; }; then
+  echo "Densifying it, and drawing ..."
+  rm -rf "$out/pictures"
+  "$bin/rawlog-densify" --config config/default.ini --input "$out/sim.rawlog" --output "$out/dense.rawlog" --overwrite \
+    --report "$out/report.json" --pictures "$out/pictures" --film "$out/film.mp4" > "$out/densification.txt"
+fi
+judged=("$bin/rawlog-evaluate" "$out/dense.rawlog" "$out/report.json" "$out/truth.rawlog")
+if ! { is_made "$out/page.html" "${judged[@]}" && is_made "$out/figures.csv" "${judged[@]}"; }; then
+  echo "Judging it by the truth ..."
+  "$bin/rawlog-evaluate" --reference "$out/truth.rawlog" --input "$out/dense.rawlog" --truth-objects "$out/sim_objects.csv" \
+    --report "$out/report.json" --max-range 40 --csv "$out/figures.csv" --html "$out/page.html" > "$out/tables.txt"
+fi
 
 echo
 awk -F, -v out="$out" '

@@ -33,7 +33,7 @@ void draw_grid(cv::Mat& picture, const BirdView& view) {
     cv::putText(picture, std::to_string(cvRound(range)) + " m", at, cv::FONT_HERSHEY_SIMPLEX, 0.4,
                 {120, 110, 105}, 1, cv::LINE_AA);
   }
-  const double size = 0.4 * step_of_rings(view) / view.ahead_m * 12;  // of the vehicle's arrow
+  const double size = 11 / view.pixels_per_m;  // of the vehicle's arrow
   const auto corner = [&](double x, double y) {
     return cv::Point(view.at({x * size, y * size, 0}));
   };
@@ -104,9 +104,11 @@ void put_legend(cv::Mat& picture, Labels& labels, const std::string& text, cv::P
                 double size, const cv::Scalar& color) {
   int below = 0;
   const cv::Size extent = cv::getTextSize(text, cv::FONT_HERSHEY_SIMPLEX, size, 1, &below);
-  cv::rectangle(picture, at + cv::Point(-6, -extent.height - 5),
-                at + cv::Point(extent.width + 6, below + 3), kGround, cv::FILLED);
-  labels.put(text, at, size, color);
+  const cv::Rect area(at + cv::Point(-6, -extent.height - 5),
+                      at + cv::Point(extent.width + 6, below + 3));
+  cv::rectangle(picture, area, kGround, cv::FILLED);
+  labels.keep_free(area);
+  draw_text(picture, text, at, size, color);
 }
 
 }  // namespace
@@ -155,16 +157,10 @@ const std::vector<Eigen::Vector3d>* Trails::of(int track) const {
 }
 
 BirdView BirdView::for_scan(const LidarScan& scan, int width_px) {
-  constexpr double kNearlyAll = 0.98, kLeast_m = 4, kMost_m = 62;
-  std::vector<double> ranges;
-  for (const Eigen::Vector3f& point : scan.points) ranges.push_back(point.head<2>().norm());
+  constexpr double kLeast_m = 4, kMost_m = 62;
   BirdView view;
-  if (!ranges.empty()) {
-    const auto nearly_last = ranges.begin() + static_cast<std::ptrdiff_t>(
-                                                  kNearlyAll * static_cast<double>(ranges.size()));
-    std::nth_element(ranges.begin(), nearly_last, ranges.end());
-    view.ahead_m = std::clamp(1.1 * *nearly_last, kLeast_m, kMost_m);
-  }
+  if (const double range = range_of_nearly_all(scan); range > 0)
+    view.ahead_m = std::clamp(1.1 * range, kLeast_m, kMost_m);
   view.behind_m = view.ahead_m / 6;
   view.aside_m = view.ahead_m / 2;
   view.pixels_per_m = width_px / (2 * view.aside_m);

@@ -195,7 +195,7 @@ class Checker {
                      ("overlay_" + names_.of(image.camera.label) + ".png"))
                         .string();
     std::filesystem::create_directories(job_.pictures);
-    write_picture(check.overlay, overlay(then, image));
+    write_picture(check.overlay, overlay(then, image, DepthScale::for_scan(then)));
   }
 
   // The ego-motion that the log holds, else that since the scan before, going on.

@@ -40,12 +40,13 @@ std::string verdict_of(const LogCheck& check) {
   constexpr double kHardlyAny = 0.01;
   std::vector<std::string> unfit, to_set;
   const StreamInfo* const lidar = check.index.find(check.lidar_label, StreamKind::lidar);
-  bool any_between = false;
+  bool any_between = false, any_used = check.cameras.empty();
   for (const CameraCheck& camera : check.cameras) {
     const std::string& label = camera.camera.label;
     const StreamInfo* const images = check.index.find(label, StreamKind::camera);
     any_between = any_between || (images != nullptr && lidar != nullptr &&
                                   any_between_scans(*images, lidar->stamps));
+    any_used = any_used || camera.num_compared > 0;
     if (camera.num_compared > 0 && camera.share_in_view < kHardlyAny)
       unfit.push_back(label + " sees hardly a point of the scans: is its pose right ([camera." +
                       label + "] pose)?");
@@ -57,6 +58,7 @@ std::string verdict_of(const LogCheck& check) {
       to_set.push_back(text.str());
     }
   }
+  if (!any_used) unfit.emplace_back("no picture can be used with a scan");
   if (!any_between) unfit.emplace_back("no image falls between two scans");
   if (check.index.corruption) to_set.emplace_back("--accept-truncated");
   if (unfit.empty() && to_set.empty()) return "fit as it is";

@@ -23,7 +23,8 @@ class Labels {
   explicit Labels(cv::Mat& picture) : picture_(picture) {}
 
   void keep_free(const cv::Rect& area) { taken_.push_back(area); }
-  /// @param at the text's left end on its base line; it moves down from there to where it is free.
+  /// @param at the text's left end on its base line; it moves up or down from there to where it is
+  /// free.
   void put(const std::string& text, cv::Point at, double size, const cv::Scalar& color);
 
  private:
@@ -34,11 +35,23 @@ class Labels {
 /// "#7 12.3 m/s"
 [[nodiscard]] std::string label_of(int track, double speed_m_s);
 
-/// A scan of a picture's instant on the picture, coloured by depth: red near, blue far, with the
-/// scale of colours.
-[[nodiscard]] cv::Mat overlay(const LidarScan& scan, const CameraImage& image);
+/// How far nearly all points of a scan are away, level, m; 0 if it has none.
+[[nodiscard]] double range_of_nearly_all(const LidarScan& scan);
+
+/// Of depths by colours: red near, blue far.
+struct DepthScale {
+  double nearest_m = 3, farthest_m = 80;
+
+  /// One that nearly all of a scan is on: a depth camera's is shorter than a LiDAR's.
+  static DepthScale for_scan(const LidarScan& scan);
+};
+
+/// A scan of a picture's instant on the picture, coloured by depth, with the scale of colours.
+[[nodiscard]] cv::Mat overlay(const LidarScan& scan, const CameraImage& image,
+                              const DepthScale& scale);
 
 /// A virtual scan on its picture, with boxes, numbers and speeds of what moves.
-[[nodiscard]] cv::Mat on_image(const VirtualScan& scan, const CameraImage& image);
+[[nodiscard]] cv::Mat on_image(const VirtualScan& scan, const CameraImage& image,
+                               const DepthScale& scale);
 
 }  // namespace lidar_upsampling

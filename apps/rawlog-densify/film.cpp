@@ -10,7 +10,6 @@
 #include <opencv2/imgproc.hpp>
 #include <stdexcept>
 
-#include "drawing.h"
 #include "lidar_upsampling/io/output_file.h"
 
 namespace lidar_upsampling {
@@ -49,7 +48,10 @@ Film::Film(std::string path) : path_(std::move(path)) {
 }
 
 void Film::real_scan(const LidarScan& scan) {
-  if (!real_) view_ = BirdView::for_scan(scan, kPanel_px);
+  if (!real_) {
+    view_ = BirdView::for_scan(scan, kPanel_px);
+    depths_ = DepthScale::for_scan(scan);
+  }
   real_ = scan;
   as_taken_.release();
 }
@@ -78,13 +80,13 @@ void Film::virtual_scan(const VirtualScan& scan) {
     const BirdScene key = scene_of_key(scan, *real_);
     trails_.remember(key);
     if (const CameraImage* image = image_at(scan.key_stamp))
-      add(scan.key_stamp, key, overlay(*real_, *image));
+      add(scan.key_stamp, key, overlay(*real_, *image, depths_));
   }
   last_key_ = scan.key_stamp;
   const BirdScene scene = scene_of(scan);
   trails_.remember(scene);
   if (const CameraImage* image = image_at(scan.scan.stamp))
-    add(scan.scan.stamp, scene, on_image(scan, *image));
+    add(scan.scan.stamp, scene, on_image(scan, *image, depths_));
 }
 
 void Film::add(Stamp stamp, const BirdScene& scene, const cv::Mat& camera) {

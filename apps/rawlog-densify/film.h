@@ -9,6 +9,7 @@
 #include <string>
 
 #include "bird_view.h"
+#include "drawing.h"
 #include "lidar_upsampling/io/temporary_names.h"
 #include "lidar_upsampling/types.h"
 
@@ -49,7 +50,8 @@ class Film {
   cv::Mat as_taken_;  ///< the real scan from above; empty: not drawn yet
   Stamp last_key_;
   Trails trails_;
-  BirdView view_;  ///< by the first scan
+  BirdView view_;      ///< by the first scan
+  DepthScale depths_;  ///< by the first scan
 };
 
 }  // namespace lidar_upsampling

@@ -9,7 +9,6 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "drawing.h"
 #include "lidar_upsampling/io/output_file.h"
 
 namespace lidar_upsampling {
@@ -40,7 +39,10 @@ Pictures::Pictures(std::string folder) : folder_(std::move(folder)) {
 
 void Pictures::real_scan(const LidarScan& scan) {
   constexpr int kWidth_px = 896;
-  if (real_.points.empty()) view_ = BirdView::for_scan(scan, kWidth_px);
+  if (real_.points.empty()) {
+    view_ = BirdView::for_scan(scan, kWidth_px);
+    depths_ = DepthScale::for_scan(scan);
+  }
   real_ = scan;
 }
 
@@ -52,7 +54,7 @@ void Pictures::virtual_scan(const VirtualScan& scan) {
   for (const auto& [label, image] : images_) {
     cameras.push_back(image.camera);
     if (std::abs(seconds_between(image.stamp, scan.scan.stamp)) < kSameInstant_s)
-      write(numbered(number_, names_.of(label)), on_image(scan, image));
+      write(numbered(number_, names_.of(label)), on_image(scan, image, depths_));
   }
   write(numbered(number_, "from_above"),
         from_above(scene, &real_, trails_, cameras, real_.T_vehicle_lidar, view_));

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "bird_view.h"
+#include "drawing.h"
 #include "lidar_upsampling/io/file_places.h"
 #include "lidar_upsampling/types.h"
 
@@ -39,7 +40,8 @@ class Pictures {
   LidarScan real_;
   std::map<std::string, CameraImage> images_;
   Trails trails_;
-  BirdView view_;  ///< by the first scan
+  BirdView view_;      ///< by the first scan
+  DepthScale depths_;  ///< by the first scan
 };
 
 }  // namespace lidar_upsampling

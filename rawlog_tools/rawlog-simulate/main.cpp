@@ -3,6 +3,11 @@
 #include <cmath>
 #include <filesystem>
 #include <iostream>
+#include <set>
+#include <stdexcept>
+#include <string>
+#include <system_error>
+#include <vector>
 
 #include "common/tool_main.h"
 #include "lidar_upsampling/ini_text.h"
@@ -31,17 +36,43 @@ double least_bytes(const lidar_upsampling::sim::Scenario& scenario) {
   return kLeastShare * 3 * pixels;
 }
 
-/// One that there is not may be the name of an installed one, or of one beside the build.
-std::string scenario_file(const std::string& given) {
-  namespace fs = std::filesystem;
-  if (fs::exists(given)) return given;
+namespace fs = std::filesystem;
+
+/// Where the tools' own scenarios are: installed, or beside the build.
+std::vector<fs::path> scenario_folders() {
   const fs::path bin = fs::read_symlink("/proc/self/exe").parent_path();
-  for (const char* folder :
-       {"../share/lidar_upsampling/config/scenarios", "../../../config/scenarios"}) {
-    const fs::path file = (bin / folder / given).replace_extension(".ini").lexically_normal();
+  return {(bin / "../share/lidar_upsampling/config/scenarios").lexically_normal(),
+          (bin / "../../../config/scenarios").lexically_normal()};
+}
+
+std::string no_such_scenario(const std::string& given) {
+  std::set<std::string> names;
+  for (const fs::path& folder : scenario_folders()) {
+    std::error_code ignored;
+    for (const auto& file : fs::directory_iterator(folder, ignored))
+      names.insert(file.path().stem().string());
+  }
+  const std::vector<std::string> known(names.begin(), names.end());
+  std::string message = "--scenario " + given +
+                        ": there is no such file, nor a scenario of that name" +
+                        lidar_upsampling::did_you_mean(given, known);
+  const char* separator = known.empty() ? "" : " There are ";
+  if (!known.empty() && message.back() != '?') separator = "; there are ";
+  for (const std::string& name : known) {
+    message += separator + name;
+    separator = ", ";
+  }
+  return message;
+}
+
+/// What is no file may be the name of one of the tools' own.
+std::string scenario_file(const std::string& given) {
+  if (fs::exists(given)) return given;
+  for (const fs::path& folder : scenario_folders()) {
+    const fs::path file = (folder / given).replace_extension(".ini");
     if (fs::exists(file)) return file.string();
   }
-  return given;
+  throw std::runtime_error(no_such_scenario(given));
 }
 
 }  // namespace

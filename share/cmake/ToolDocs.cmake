@@ -9,7 +9,7 @@ function(lidar_upsampling_document_tool name)
   set(completion ${PROJECT_BINARY_DIR}/completions/${name})
   add_custom_command(OUTPUT ${completion}
     COMMAND ${CMAKE_COMMAND} -D TOOL=$<TARGET_FILE:${name}> -D OUTPUT=${completion}
-      -D SETTINGS_OF=$<TARGET_FILE:rawlog-densify> -P ${PROJECT_SOURCE_DIR}/share/cmake/make_completion.cmake
+      -D SETTINGS_OF=$<TARGET_FILE:rawlog-densify> -D SCENARIOS=${PROJECT_SOURCE_DIR}/config/scenarios -P ${PROJECT_SOURCE_DIR}/share/cmake/make_completion.cmake
     DEPENDS ${name} rawlog-densify ${PROJECT_SOURCE_DIR}/share/cmake/make_completion.cmake
       ${PROJECT_SOURCE_DIR}/share/cmake/completion.bash.in)
   install(FILES ${completion} DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions)

@@ -1,5 +1,5 @@
 # The bash completion OUTPUT of TOOL: its options, the words that some of them take, and where it takes settings their
-# names and words, which SETTINGS_OF prints.
+# names and words, which SETTINGS_OF prints; where it takes a scenario, the names of those in SCENARIOS.
 get_filename_component(name ${TOOL} NAME)
 string(REPLACE "-" "_" function "_${name}")
 execute_process(COMMAND ${TOOL} --help OUTPUT_VARIABLE help COMMAND_ERROR_IS_FATAL ANY)
@@ -14,6 +14,11 @@ foreach(line IN LISTS lines)
   if(line MATCHES "^\n +[^ ]* [A-Z]+:{([^}]*)}")
     string(REPLACE "," " " words "${CMAKE_MATCH_1}")
     string(APPEND values "    ${option}) COMPREPLY=($(compgen -W '${words}' -- \"$current\")); return ;;\n")
+  elseif(option STREQUAL "--scenario")
+    file(GLOB scenarios ${SCENARIOS}/*.ini)
+    list(TRANSFORM scenarios REPLACE "^.*/(.*)\\.ini$" "\\1")
+    list(JOIN scenarios " " words)
+    string(APPEND values "    --scenario) COMPREPLY=($(compgen -W '${words}' -- \"$current\")); return ;;\n")
   elseif(line MATCHES "^\n +[^ ]* [A-Z]+" AND NOT option STREQUAL "--set")
     list(APPEND free ${option})
   endif()

@@ -2,6 +2,7 @@
 // Copyright (c) 2026, the lidar_upsampling authors
 #include <filesystem>
 
+#include "bad_observations.h"
 #include "pipeline.h"
 
 namespace lidar_upsampling {
@@ -73,6 +74,22 @@ TEST(Check, a_sweep_with_the_times_of_its_points_is_noticed) {
   EXPECT_TRUE(contains(result.text, "times of points known")) << result.text;
   expect_done(
       densify_command(folder / "in.rawlog", folder / "out.rawlog", "--set scan_time=points"));
+}
+
+TEST(Check, a_log_no_picture_of_which_can_be_used_is_not_fit) {
+  const TestFolder folder;
+  write_hand_made(folder / "in.rawlog");
+  std::vector<RawlogEntry> entries = read_log(folder / "in.rawlog");
+  for (RawlogEntry& entry : entries)
+    if (const auto image = std::dynamic_pointer_cast<mrpt::obs::CObservationImage>(entry.object)) {
+      image->cameraPose.x(kNoNumber);
+      entry = entry_of(image);
+    }
+  write_entries(folder / "in.rawlog", entries);
+  const ToolResult result = run(check_command(folder));
+  EXPECT_EQ(result.status, 0) << result.text;
+  EXPECT_TRUE(contains(result.text, "verdict       not fit: no picture can be used with a scan"))
+      << result.text;
 }
 
 TEST(Check, an_input_is_asked_for) {

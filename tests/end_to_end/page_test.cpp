@@ -80,6 +80,9 @@ TEST_F(Page, holds_all_sections_plots_and_pictures) {
   EXPECT_EQ(count_of(page, "<article"), 12);
   EXPECT_EQ(count_of(page, "<img"), 3 * 12);
   EXPECT_TRUE(contains(page, "Moving objects: mean position error"));
+  EXPECT_TRUE(contains(page, "<p class=\"headline\">Moving objects are "));
+  EXPECT_EQ(count_of(page, "class=\"headline\""), 1);
+  EXPECT_EQ(count_of(page, "<title>"), 1);  // more would be wrong names beside the pointer
   EXPECT_TRUE(contains(page, "constant-velocity"));
 }
 
@@ -123,6 +126,12 @@ TEST_F(Page, without_a_reference_tells_of_coverage_tracks_and_time) {
   EXPECT_FALSE(contains(page, "<section id=\"objects\""));
   EXPECT_TRUE(contains(page, "8 virtual scans raise 5 real ones"));
   EXPECT_EQ(count_of(page, "<svg"), 2);
+}
+
+TEST_F(Page, counts_an_image_at_a_real_scans_instant_there_and_not_with_the_virtual_one_beside_it) {
+  make_page("--report " + folder_ / "report.json");
+  EXPECT_TRUE(contains(text_of(folder_ / "page.html"),
+                       "CAM0</th><td>13</td><td>8</td><td>5</td><td>0</td>"));
 }
 
 TEST_F(Page, running_times_add_up) {

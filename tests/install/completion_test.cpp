@@ -63,6 +63,12 @@ TEST(Completion, settings_are_completed_by_their_words_for_each_tool_that_takes_
   }
 }
 
+TEST(Completion, choices_are_completed_by_their_words) {
+  EXPECT_EQ(completed("rawlog-export", "--format p"), Words{"ply"});
+  EXPECT_EQ(completed("rawlog-evaluate", "--protocol kitti-o"), Words{"kitti-odometry"});
+  EXPECT_EQ(completed("rawlog-simulate", "--scenario dem"), Words{"demo"});
+}
+
 TEST(Completion, is_loaded_by_the_tools_name) {
   for (const std::string& tool : tool_names())
     EXPECT_TRUE(contains(text_of("bash -c 'source " BUILD_FOLDER "/completions/" + tool +

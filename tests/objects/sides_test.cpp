@@ -44,6 +44,29 @@ TEST(Sides, lie_along_the_car_and_not_along_its_diagonal) {
     }
 }
 
+/// A car's end, 1.7 m wide, and so much of its side, at a place where the sensor at the origin sees
+/// it from straight behind.
+std::vector<Eigen::Vector3f> seen_from_behind(double yaw, float side_m) {
+  const Eigen::Rotation2Df turn(static_cast<float>(yaw));
+  std::vector<Eigen::Vector3f> points;
+  const auto add = [&](float x, float y) {
+    const Eigen::Vector2f place = turn * Eigen::Vector2f(30 + x, y);
+    points.emplace_back(place.x(), place.y(), 0.F);
+  };
+  for (int i = 0; i < 8; ++i) add(0, 1.7F * static_cast<float>(i) / 7);
+  for (int i = 1; i < 4; ++i) add(side_m * static_cast<float>(i) / 3, 0);
+  return points;
+}
+
+TEST(Sides, of_a_car_of_which_only_the_end_is_seen_lie_along_the_line_of_sight) {
+  for (int degrees = -80; degrees <= 90; degrees += 10)
+    for (const float side_m : {0.F, 0.5F, 1.5F})
+      EXPECT_LT(difference_deg(yaw_of_sides(seen_from_behind(degrees * kDegree, side_m)),
+                               degrees * kDegree),
+                5)
+          << degrees << ", " << side_m;
+}
+
 TEST(Sides, a_single_point_has_some) {
   EXPECT_TRUE(std::isfinite(yaw_of_sides({Eigen::Vector3f(1, 2, 3)})));
 }

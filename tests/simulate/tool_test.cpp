@@ -162,6 +162,15 @@ TEST_F(SimulateTool, a_failure_is_one_line_and_leaves_nothing_behind) {
   EXPECT_EQ(simulate(small_, "--duration 0 --overwrite --output " + path("o.rawlog")).status, 0);
 }
 
+TEST_F(SimulateTool, a_scenario_is_found_by_its_name_and_a_misspelt_one_is_told_what_there_is) {
+  const auto found = simulate("demo", "--duration 0 --output " + path("o.rawlog"));
+  EXPECT_EQ(found.status, 0) << found.output;
+  const auto misspelt = simulate("deom", "--duration 0 --output " + path("p.rawlog"));
+  EXPECT_EQ(misspelt.status, 1);
+  EXPECT_NE(misspelt.output.find("did you mean demo?"), std::string::npos) << misspelt.output;
+  EXPECT_NE(misspelt.output.find("braking, "), std::string::npos) << misspelt.output;
+}
+
 TEST_F(SimulateTool, it_tells_its_version) {
   EXPECT_NE(run(std::string(RAWLOG_SIMULATE) + " --version").output.find("rawlog-simulate 0.1.0"),
             std::string::npos);

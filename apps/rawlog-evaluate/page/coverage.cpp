@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <limits>
 #include <stdexcept>
 
 #include "lidar_upsampling/metrics/summary.h"
@@ -36,9 +37,14 @@ StreamCoverage coverage_of(std::string name, std::vector<Stamp> stamps) {
   return coverage;
 }
 
-bool has_near(const std::vector<Stamp>& stamps, Stamp stamp, double tolerance_s) {
-  const auto first = std::lower_bound(stamps.begin(), stamps.end(), shifted(stamp, -tolerance_s));
-  return first != stamps.end() && *first <= shifted(stamp, tolerance_s);
+/// How far the nearest of them is, s.
+double to_nearest(const std::vector<Stamp>& stamps, Stamp stamp) {
+  const auto next = std::lower_bound(stamps.begin(), stamps.end(), stamp);
+  double distance = std::numeric_limits<double>::infinity();
+  if (next != stamps.end()) distance = seconds_between(stamp, *next);
+  if (next != stamps.begin())
+    distance = std::min(distance, seconds_between(*std::prev(next), stamp));
+  return distance;
 }
 
 const StreamInfo& virtual_stream(const LogIndex& index, const std::string& label) {
@@ -116,10 +122,10 @@ Coverage measure_coverage(const LogIndex& index, const std::string& label, doubl
     CameraCoverage figures{camera->label, 0, 0, 0};
     for (const Stamp stamp : camera->stamps) {
       ++figures.num_images;
-      if (has_near(coverage.virtual_scans.stamps, stamp, tolerance_s))
-        ++figures.num_with_virtual;
-      else if (has_near(coverage.real.stamps, stamp, tolerance_s))
-        ++figures.num_with_real;
+      const double to_virtual = to_nearest(coverage.virtual_scans.stamps, stamp);
+      const double to_real = to_nearest(coverage.real.stamps, stamp);
+      if (std::min(to_virtual, to_real) > tolerance_s) continue;
+      ++(to_virtual <= to_real ? figures.num_with_virtual : figures.num_with_real);
     }
     coverage.cameras.push_back(std::move(figures));
   }

@@ -58,9 +58,13 @@ std::string short_number(double value) {
   return (text.substr(text.size() - 2) == ".0" ? text.substr(0, text.size() - 2) : text) + "k";
 }
 
-std::string label_of(const Bin& bin, const std::string& unit) {
+/// @param with_word for a few bins there is room to say what is counted.
+std::string label_of(const Bin& bin, const std::string& unit, bool with_word) {
   const int count = bin.rows[Row::ours].count;
-  const std::string objects = "\n" + std::to_string(count) + (count == 1 ? " object" : " objects");
+  const std::string objects = "\n" + std::to_string(count) +
+                              (!with_word   ? ""
+                               : count == 1 ? " object"
+                                            : " objects");
   if (unit == "s") return fixed(1e3 * bin.mean_key, 0) + " ms" + objects;
   if (std::isinf(bin.to)) return "≥ " + short_number(bin.from) + objects;
   return short_number(bin.from) + "–" + short_number(bin.to) + objects;
@@ -71,7 +75,7 @@ const char* kind_of(bool moving) { return moving ? "Moving" : "Static"; }
 std::string axis_label(const std::string& key) {
   if (key == "horizon") return "time since the key scan";
   if (key == "range") return "range at the key scan, m";
-  return "points of the object in the key scan";
+  return "points in the key scan";
 }
 
 Plot binned_plot(const Binned& binned) {
@@ -95,8 +99,11 @@ Plot binned_plot(const Binned& binned) {
     }
     if (!series.points.empty()) plot.series.push_back(std::move(series));
   }
+  constexpr std::size_t kFew = 4;
+  const bool with_word = binned.bins.size() <= kFew;
+  if (!with_word) plot.x.label += "; below, how many objects";
   for (std::size_t i = 0; i < binned.bins.size(); ++i)
-    plot.x.ticks.emplace_back(i, label_of(binned.bins[i], binned.unit));
+    plot.x.ticks.emplace_back(i, label_of(binned.bins[i], binned.unit, with_word));
   fit_to(plot.y, low, high);
   return plot;
 }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <sstream>
 
 #include "palette.h"
@@ -51,6 +52,12 @@ HtmlTable object_table(const char* caption, const Figures& figures,
   return table;
 }
 
+/// Numbers of points are short, so that a narrow screen has room for all columns.
+std::string label_of(const Bin& bin, const Binned& binned) {
+  if (binned.key != "points" || std::isinf(bin.to)) return edges_of(bin, binned.unit);
+  return fixed(bin.from, 0) + "–" + fixed(bin.to, 0);
+}
+
 /// Here a line is a bin, and the rows stand side by side.
 HtmlTable binned_table(const Binned& binned) {
   HtmlTable table;
@@ -61,7 +68,7 @@ HtmlTable binned_table(const Binned& binned) {
   for (const Row row : kRivals) table.columns.emplace_back(name_of(row));
   for (const Bin& bin : binned.bins) {
     HtmlRow line;
-    line.name = edges_of(bin, binned.unit);
+    line.name = label_of(bin, binned);
     line.cells = {count_cell(bin.rows[Row::ours].count)};
     for (const Row row : kRivals)
       line.cells.push_back(error_cell(bin.rows[row].count > 0, bin.rows[row].mean));

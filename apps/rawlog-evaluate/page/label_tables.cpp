@@ -2,6 +2,8 @@
 // Copyright (c) 2026, the lidar_upsampling authors
 #include "label_tables.h"
 
+#include <utility>
+
 #include "palette.h"
 
 namespace lidar_upsampling {
@@ -78,6 +80,11 @@ HtmlTable group_table(const std::string& key, const std::vector<LabelGroup>& gro
   return table;
 }
 
+std::string compared_by(double ratio, const char* other) {
+  return ratio >= 1 ? fixed(ratio, 1) + " times nearer than " + other
+                    : fixed(1 / ratio, 1) + " times as far as " + other;
+}
+
 }  // namespace
 
 std::vector<HtmlTable> label_tables(const LabelScores& scores) {
@@ -92,14 +99,15 @@ std::vector<HtmlTable> label_tables(const LabelScores& scores) {
 std::string label_headline(const LabelScores& scores) {
   if (!scores[Row::ours]) return {};
   const LabelFigures ours = label_figures(*scores[Row::ours]);
-  std::string text = "By labels: " + std::to_string(ours.movers_m.count) + " movers are off by " +
-                     fixed(ours.movers_m.mean, 3) + " m on average (p95 " +
-                     fixed(ours.movers_m.p95, 3) + " m)";
-  for (const Row row : {Row::ego, Row::constant_velocity, Row::paper})
-    if (scores[row])
-      text += std::string(", ") + name_of(row) + " " +
-              fixed(label_figures(*scores[row]).movers_m.mean, 3);
-  return text + "; " + fixed(ours.false_per_image, 2) + " false movers per image.";
+  std::string text = "Moving objects are " + fixed(100 * ours.movers_m.mean, 1) +
+                     " cm off on average (95 % of " + std::to_string(ours.movers_m.count) +
+                     " by less than " + fixed(100 * ours.movers_m.p95, 1) + " cm)";
+  for (const auto& [row, name] : {std::pair(Row::constant_velocity, "with constant velocity"),
+                                  std::pair(Row::paper, "by the published method")})
+    if (scores[row] && ours.movers_m.mean > 0)
+      text +=
+          ", " + compared_by(label_figures(*scores[row]).movers_m.mean / ours.movers_m.mean, name);
+  return text + "; " + fixed(ours.false_per_image, 2) + " per image are told to move that do not.";
 }
 
 }  // namespace lidar_upsampling

@@ -92,7 +92,8 @@ void add_comparison(const Comparison& comparison, const DrawnPlots& plots,
   if (!by_labels.empty()) sections.push_back({"labels", "By labels", blocks_of(by_labels)});
   if (comparison.result.scans.empty()) return;
   sections.push_back({"objects", "Errors of objects",
-                      blocks_of(object_tables(figures)) + rows_html() + left_out_html(comparison)});
+                      paragraph(headline(figures)) + blocks_of(object_tables(figures)) +
+                          rows_html() + left_out_html(comparison)});
   sections.push_back({"distribution", "Distribution of position errors",
                       plots.distributions.empty() ? paragraph("No object could be compared.")
                                                   : side_by_side(plots.distributions)});
@@ -193,8 +194,11 @@ std::string to_page(const PageContent& content) {
   std::vector<Section> sections;
   if (const auto& comparison = content.comparison) {
     const std::string by_labels = label_headline(comparison->result.labels);
-    if (!by_labels.empty()) header += paragraph(by_labels, "headline");
-    if (!comparison->result.scans.empty())
+    // One measure leads: where labels tell of all movers, that by registration comes with its
+    // table.
+    if (!by_labels.empty())
+      header += paragraph(by_labels, "headline");
+    else if (!comparison->result.scans.empty())
       header += paragraph(headline(comparison->figures), "headline");
     header += beaten_html(comparison->figures);
     add_comparison(*comparison, plots, sections);

@@ -4,6 +4,7 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <filesystem>
@@ -93,15 +94,21 @@ std::string style_of(Plot::Kind kind, const Series& series) {
   return "with lines" + color + width + dash;
 }
 
+/// Gnuplot takes letters for wider than they are, which adds up in long names.
+int key_width(const Plot& plot) {
+  constexpr std::size_t kLong = 12;
+  const auto is_long = [](const Series& series) { return series.name.size() > kLong; };
+  return std::any_of(plot.series.begin(), plot.series.end(), is_long) ? -4 : 0;
+}
+
 std::string script_of(const Plot& plot, const std::string& file) {
   std::ostringstream script;
   script.precision(9);
   script
       << "reset\nset terminal svg size 540,390 noenhanced font 'sans-serif,14' background 'white'\n"
       << "set output " << quoted(file) << '\n'
-      << "set key tmargin center horizontal Left reverse width -4 samplen 2\nset grid lc rgb "
-         "'#dde3e9' lt "
-         "1 lw 1\n"
+      << "set key tmargin center horizontal Left reverse width " << key_width(plot)
+      << " samplen 2\nset grid lc rgb '#dde3e9' lt 1 lw 1\n"
       << "set border 3 lc rgb '#5b6876'\nset tics nomirror\nset bars small\n";
   write_axis(script, 'x', plot.x);
   write_axis(script, 'y', plot.y);
@@ -127,14 +134,22 @@ void replace_all(std::string& text, const std::string& what, const std::string& 
     text.replace(at, what.size(), by);
 }
 
+/// A browser shows these beside the pointer; gnuplot's name a curve after the last text it wrote.
+std::string without_titles(std::string svg) {
+  const std::string begin = "<title>", end = "</title>";
+  for (std::size_t at = 0; (at = svg.find(begin, at)) != std::string::npos;)
+    svg.erase(at, svg.find(end, at) + end.size() - at);
+  return svg;
+}
+
 /// What gnuplot wrote as an element of a page that holds others like it.
 std::string embeddable(std::string svg, const std::string& caption, std::size_t number) {
+  svg = without_titles(std::move(svg));
   const auto start = svg.find("<svg");
   const auto view = svg.find("viewBox", start);
   if (start == std::string::npos || view == std::string::npos)
     throw std::runtime_error("gnuplot wrote no plot of '" + caption + "'");
-  svg = "<svg role=\"img\" " + svg.substr(view);
-  replace_all(svg, "<title>Gnuplot</title>", "<title>" + escaped(caption) + "</title>");
+  svg = "<svg role=\"img\" aria-label=\"" + escaped(caption) + "\" " + svg.substr(view);
   // Names of elements are the whole page's.
   const std::string prefix = "plot" + std::to_string(number) + "-";
   replace_all(svg, "id=\"", "id=\"" + prefix);

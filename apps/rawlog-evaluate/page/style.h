@@ -85,7 +85,11 @@ figure svg { display: block; width: 100%; height: auto; min-width: 430px; border
   section { padding: 14px 12px; }
   h1 { font-size: 21px; }
   .headline { font-size: 16px; }
-  th, td { padding: 4px 5px; }
+  table { font-size: 12px; }
+  thead th { font-size: 11px; }
+  th, td { padding: 4px 3px; }
+  .across th, .across td { padding: 4px 2px; }
+  .across thead th { font-size: 10px; }
   figure svg { min-width: 0; }
   .bar { grid-template-columns: 84px 1fr 58px; }
 }

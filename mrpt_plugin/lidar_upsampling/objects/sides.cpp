@@ -25,11 +25,18 @@ Eigen::ArrayXf to_nearer_end(const Eigen::ArrayXf& places) {
 
 float extent_of(const Eigen::ArrayXf& places) { return places.maxCoeff() - places.minCoeff(); }
 
+/// The same direction as of (-pi/2, pi/2].
+double without_sense(double yaw) {
+  const double within = std::remainder(yaw, M_PI);
+  return within <= -M_PI / 2 ? within + M_PI : within;
+}
+
 }  // namespace
 
 double yaw_of_sides(const std::vector<Eigen::Vector3f>& points) {
   constexpr std::size_t kMostPoints = 200;  // so many draw two sides to some centimetres
   constexpr int kStep_deg = 2;
+  constexpr float kWidest_m = 2.3F;  // of cars, with mirrors
   const std::vector<Eigen::Vector3f> some = evenly_thinned(points, kMostPoints);
   Eigen::Matrix2Xf places(2, static_cast<Eigen::Index>(some.size()));
   for (std::size_t i = 0; i < some.size(); ++i)
@@ -45,9 +52,14 @@ double yaw_of_sides(const std::vector<Eigen::Vector3f>& points) {
     closest = closeness;
     best = yaw;
   }
-  const bool is_across = extent_of(along(places, best + M_PI / 2)) > extent_of(along(places, best));
-  if (!is_across) return best;
-  return best > 0 ? best - M_PI / 2 : M_PI / 2;
+  const double across = best + M_PI / 2;
+  const double longer =
+      extent_of(along(places, across)) > extent_of(along(places, best)) ? across : best;
+  const Eigen::Vector2f middle = places.rowwise().mean();
+  const double sight = std::atan2(middle.y(), middle.x());
+  const bool is_across_sight = std::abs(without_sense(longer - sight)) > M_PI / 4;
+  const bool is_end = is_across_sight && extent_of(along(places, longer)) < kWidest_m;
+  return without_sense(is_end ? longer + M_PI / 2 : longer);
 }
 
 }  // namespace lidar_upsampling

@@ -24,7 +24,7 @@ struct ObjectBox {
 };
 
 /// @brief The boxes of a virtual scan's objects at the image's instant: along the velocity of what
-/// moves, else along its longer side. Objects without points left in the scan have none.
+/// moves, else along its sides (`yaw_of_sides`). Objects without points left in the scan have none.
 [[nodiscard]] std::vector<ObjectBox> object_boxes(const VirtualScan& scan);
 
 /// Whether a point lies in the box or at most `margin` (m) outside.
