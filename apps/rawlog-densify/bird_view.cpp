@@ -190,8 +190,8 @@ cv::Mat from_above(const BirdScene& scene, const LidarScan* before, const Trails
   if (before != nullptr)
     put_legend(picture, labels, "grey: last real scan", {16, 52}, 0.5, {170, 170, 170});
   if (!scene.movers.empty())
-    put_legend(picture, labels, "colour: what moves, its way and speed", {16, 74}, 0.5,
-               {140, 220, 255});
+    put_legend(picture, labels, "colour: what moves, its way and speed",
+               {16, before != nullptr ? 74 : 52}, 0.5, {140, 220, 255});
   const cv::Rect inside({0, 0}, picture.size());
   for (const Mover& mover : scene.movers)
     if (inside.contains(cv::Point(view.at(mover.position))))

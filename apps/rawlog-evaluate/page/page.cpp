@@ -92,8 +92,9 @@ void add_comparison(const Comparison& comparison, const DrawnPlots& plots,
   if (!by_labels.empty()) sections.push_back({"labels", "By labels", blocks_of(by_labels)});
   if (comparison.result.scans.empty()) return;
   sections.push_back({"objects", "Errors of objects",
-                      paragraph(headline(figures)) + blocks_of(object_tables(figures)) +
-                          rows_html() + left_out_html(comparison)});
+                      (by_labels.empty() ? "" : paragraph(headline(figures))) +
+                          blocks_of(object_tables(figures)) + rows_html() +
+                          left_out_html(comparison)});
   sections.push_back({"distribution", "Distribution of position errors",
                       plots.distributions.empty() ? paragraph("No object could be compared.")
                                                   : side_by_side(plots.distributions)});

@@ -26,7 +26,7 @@ a { color: var(--link); }
 .headline { font-size: 19px; line-height: 1.4; margin: 14px 0; padding: 12px 16px; background: var(--card);
   border-left: 5px solid #d55e00; border-radius: 4px; }
 .beaten { padding: 10px 16px; background: var(--warning); border-left: 5px solid #e69f00; border-radius: 4px; }
-.beaten ul { margin: 4px 0 0; padding-left: 20px; columns: 300px; }
+.beaten ul { margin: 4px 0 0; padding-left: 20px; columns: 300px; column-gap: 28px; }
 .note { color: var(--soft); font-size: 13px; margin: 6px 0 0; }
 .note + .grid { margin-top: 12px; }
 dl.facts { display: grid; grid-template-columns: max-content minmax(0, 1fr); gap: 2px 16px; margin: 0 0 12px; }
