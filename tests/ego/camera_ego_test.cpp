@@ -46,7 +46,7 @@ TrackedStreet track_street(const Pose& motion, double noise_px, double outlier_s
   const LidarScan scan = testing::scan_street(testing::houses(), lidar_at(0, 0, 0), 1, nullptr, 64);
   const auto visible = project_scan(wide_picture(), camera_on_roof(), scan.points);
   std::mt19937 random(5);
-  std::normal_distribution<double> noise(0, noise_px);
+  std::normal_distribution<double> noise;
   std::uniform_real_distribution<double> any(0, 1);
   TrackedStreet result;
   for (std::size_t i = 0; i < visible.size(); i += visible.size() / 300) {
@@ -56,7 +56,7 @@ TrackedStreet track_street(const Pose& motion, double noise_px, double outlier_s
     const auto pixel = project(wide_picture(), camera_on_roof() * moved * point);
     if (pixel) {
       result.correspondences.push_back(
-          {point, *pixel + Eigen::Vector2d(noise(random), noise(random))});
+          {point, *pixel + Eigen::Vector2d(noise_px * noise(random), noise_px * noise(random))});
       result.num_outliers += is_outlier ? 1 : 0;
     }
   }

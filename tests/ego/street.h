@@ -64,7 +64,7 @@ inline LidarScan scan_street(const std::vector<Box>& boxes, const Pose& T_world_
   scan.num_rings = num_rings;
   scan.num_columns = num_columns;
   std::mt19937 random(seed);
-  std::normal_distribution<double> error(0, noise);
+  std::normal_distribution<double> error;
   const Eigen::Vector3d origin = T_world_lidar.translation();
   std::vector<SeenBox> seen;
   for (const Box& box : boxes) seen.emplace_back(box, origin);
@@ -85,7 +85,7 @@ inline LidarScan scan_street(const std::vector<Box>& boxes, const Pose& T_world_
         }
       }
       if (range < 80) {
-        scan.points.emplace_back(((range + error(random)) * beam).cast<float>());
+        scan.points.emplace_back(((range + noise * error(random)) * beam).cast<float>());
         scan.ring.push_back(static_cast<std::uint16_t>(ring));
         scan.column.push_back(static_cast<std::uint16_t>(column));
         if (owner) {

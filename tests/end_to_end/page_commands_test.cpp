@@ -14,7 +14,7 @@ struct NotRun {
 };
 
 constexpr NotRun kNotRun[] = {
-    {"(bash )?(share/(demo|install-deps|on-debian)|tests/run)\\.sh",
+    {"(bash )?(share/(demo|install-deps|on-debian|cross-read)|tests/run)\\.sh",
      "install packages and build all"},
     {"cmake |cpack ", "build; install_test.cpp and package_test.cpp do"},
     {"git ls-files", "changes the sources; tests/run.sh runs it with --dry-run"},

@@ -25,10 +25,11 @@ template <typename Travelled>
 std::vector<LabelledPosition> labels_of_travel(int count, double interval_s, double jitter_m,
                                                const Travelled& travelled) {
   std::mt19937 random(3);
-  std::normal_distribution<double> noise(0, jitter_m);
+  std::normal_distribution<double> noise;
   std::vector<LabelledPosition> track;
   for (int i = 0; i < count; ++i) {
-    const Eigen::Vector3d off(noise(random), noise(random), noise(random));
+    const Eigen::Vector3d off(jitter_m * noise(random), jitter_m * noise(random),
+                              jitter_m * noise(random));
     track.push_back({label_stamp(i * interval_s),
                      Eigen::Vector3d(5000, -3000, 100) + travelled(i * interval_s) + off});
   }

@@ -61,7 +61,7 @@ inline Street make_street(const std::function<double(double, double)>& ground,
   street.scan.num_rings = num_rings;
   street.scan.num_columns = num_columns;
   std::mt19937 generator(7);
-  std::normal_distribution<double> jitter(0, noise);
+  std::normal_distribution<double> jitter;
   const std::vector<SeenBox> seen(boxes.begin(), boxes.end());
   for (int ring = 0; ring < num_rings; ++ring) {
     const double elevation = (-24.8 + 26.8 * ring / (num_rings - 1)) * M_PI / 180;
@@ -91,7 +91,7 @@ inline Street make_street(const std::function<double(double, double)>& ground,
         break;
       }
       if (!(range < 90)) continue;
-      street.scan.points.emplace_back(((range + jitter(generator)) * ray).cast<float>());
+      street.scan.points.emplace_back(((range + noise * jitter(generator)) * ray).cast<float>());
       street.scan.ring.push_back(static_cast<std::uint16_t>(ring));
       street.scan.column.push_back(static_cast<std::uint16_t>(column));
       street.truth.push_back(hit);

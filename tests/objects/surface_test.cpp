@@ -12,10 +12,11 @@ namespace {
 // A wall ahead whose ranges have noise, sampled every `column_m` and `ring_m`.
 std::vector<Eigen::Vector3f> noisy_wall(float column_m, float ring_m, float sigma_m) {
   std::mt19937 random(1);
-  std::normal_distribution<float> noise(0, sigma_m);
+  std::normal_distribution<float> noise;
   std::vector<Eigen::Vector3f> points;
   for (float y = -0.5F; y < 0.5F; y += column_m)
-    for (float z = -0.5F; z < 0.5F; z += ring_m) points.emplace_back(5 + noise(random), y, z);
+    for (float z = -0.5F; z < 0.5F; z += ring_m)
+      points.emplace_back(5 + sigma_m * noise(random), y, z);
   return points;
 }
 

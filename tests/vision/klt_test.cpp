@@ -74,13 +74,13 @@ struct Light {
 cv::Mat picture(const Motion& motion, const Light& light = {}, std::uint32_t texture = 1) {
   const Texture of(texture);
   std::mt19937 generator(99 + static_cast<std::uint32_t>(100 * motion.shift.x));
-  std::normal_distribution<double> noise(0, light.noise);
+  std::normal_distribution<double> noise;
   cv::Mat image(kHeight, kWidth, CV_8UC1);
   for (int v = 0; v < kHeight; ++v) {
     for (int u = 0; u < kWidth; ++u) {
       const double gray = 128 + light.gain * (of.at(motion.undo(cv::Point2d(u, v))) - 128);
       image.at<std::uint8_t>(v, u) =
-          cv::saturate_cast<std::uint8_t>(gray + light.bias + noise(generator));
+          cv::saturate_cast<std::uint8_t>(gray + light.bias + light.noise * noise(generator));
     }
   }
   return image;
