@@ -84,8 +84,10 @@ void ActionOdometry::add(const mrpt::obs::CActionCollection& actions) {
     step = from_mrpt(mrpt::poses::CPose3D(planar->poseChange->getMeanVal()));
   else if (const auto spatial = actions.getActionByClass<mrpt::obs::CActionRobotMovement3D>())
     step = from_mrpt(spatial->poseChange.mean);
-  if (step && !is_possible(*step)) step = Pose::Identity();
-  if (step) T_world_vehicle_ = T_world_vehicle_.value_or(Pose::Identity()) * *step;
+  if (!step) return;
+  if (!T_world_vehicle_) T_world_vehicle_ = Pose::Identity();
+  const Pose T_world_next = *T_world_vehicle_ * *step;
+  if (is_possible(T_world_next)) T_world_vehicle_ = T_world_next;
 }
 
 std::optional<std::string> ego_defect_of(const mrpt::obs::CObservation& observation) {

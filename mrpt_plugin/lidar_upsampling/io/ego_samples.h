@@ -32,7 +32,7 @@ namespace lidar_upsampling {
 /// @brief Sums up the vehicle's movements that precede a log's frames.
 class ActionOdometry {
  public:
-  /// Adds the increment of the best movement estimation; none if that is not is_possible().
+  /// Adds the increment of the best movement estimation; none that leads to no is_possible() pose.
   void add(const mrpt::obs::CActionCollection& actions);
   /// In a world where the first movement began; none before that.
   [[nodiscard]] const std::optional<Pose>& T_world_vehicle() const { return T_world_vehicle_; }
