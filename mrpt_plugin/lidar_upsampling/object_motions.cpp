@@ -35,14 +35,20 @@ Appearance appearance_of(const Camera& camera, const LidarScan& scan, const Obje
 }
 
 // On the picture that shows most of it, if any does.
-Appearance shown(const std::vector<ImageResult>& group, const LidarScan& scan,
+Appearance shown(const std::vector<const Camera*>& cameras, const LidarScan& scan,
                  const ObjectMotion& motion) {
   Appearance best;
-  for (const ImageResult& result : group) {
-    const Appearance here = appearance_of(result.camera, scan, motion);
+  for (const Camera* camera : cameras) {
+    const Appearance here = appearance_of(*camera, scan, motion);
     if (here.num_points > best.num_points) best = here;
   }
   return best.num_points > 0 ? best : Appearance{};
+}
+
+std::vector<const Camera*> cameras_of(const std::vector<ImageResult>& group) {
+  std::vector<const Camera*> cameras;
+  for (const ImageResult& result : group) cameras.push_back(&result.camera);
+  return cameras;
 }
 
 // All that the pictures of an instant show of an object.
@@ -122,8 +128,10 @@ Eigen::Vector2d ego_velocity(const PreparedScan& key, const ImageResult& newest)
 
 std::vector<ObjectMotion> estimate_motions(const std::vector<ImageResult>& group,
                                            const ImageResult& newest, const KeyObjects& objects,
-                                           TrackStore& store, const Config& config) {
+                                           const std::vector<const Camera*>& rig, TrackStore& store,
+                                           const Config& config) {
   const PreparedScan& key = objects.key;
+  const auto in_group = cameras_of(group);
   const Eigen::Vector2d velocity = ego_velocity(key, newest);
   std::vector<ObjectMotion> motions(objects.track_of.size());
   tbb::parallel_for(std::size_t{0}, motions.size(), [&](std::size_t i) {
@@ -143,7 +151,8 @@ std::vector<ObjectMotion> estimate_motions(const std::vector<ImageResult>& group
     motion.num_tracked = answer.num_found;
     motion.status = status_of(answer, motion.num_tracked, config);
     motion.track_id = track.id;
-    const Appearance on_picture = shown(group, key.scan, motion);
+    Appearance on_picture = shown(in_group, key.scan, motion);
+    if (on_picture.camera == nullptr) on_picture = shown(rig, key.scan, motion);
     if (on_picture.camera == nullptr) return;
     motion.camera_label = on_picture.camera->label;
     motion.box = on_picture.box;

@@ -91,7 +91,10 @@ std::optional<VirtualScan> LidarUpsampler::flush() {
   for (const ImageResult& result : group) motion.cameras.push_back(result.camera);
   {
     const Stopwatch watch(timing_, "object motion");
-    motion.objects = estimate_motions(group, newest, {*key_, store_, track_of_}, store_, config_);
+    std::vector<const Camera*> rig;
+    for (const auto& [label, view] : views_) rig.push_back(&view->camera);
+    motion.objects =
+        estimate_motions(group, newest, {*key_, store_, track_of_}, rig, store_, config_);
   }
   return compose(std::move(motion));
 }

@@ -171,6 +171,16 @@ TEST(Hypotheses, a_mover_goes_on_where_no_camera_sees_it_ever_less_certainly) {
   EXPECT_GT(later.moving.covariance(3, 3), 4 * soon.moving.covariance(3, 3));
 }
 
+TEST(Hypotheses, what_one_picture_tells_goes_on_where_the_next_one_says_nothing) {
+  ObjectTrack track = new_track();
+  const Twist step = to_the_side(0.3);
+  note_answer(track, estimate_motion(track, picture_of(step), question_after(0.05), {step}, {}));
+  const MotionAnswer answer = estimate_motion(track, {}, question_after(0.1), {}, {});
+  EXPECT_FALSE(answer.is_seen);
+  EXPECT_TRUE(answer.moves);
+  EXPECT_NEAR(answer.moving.mean[4], 0.6, 0.1);
+}
+
 TEST(Hypotheses, what_a_picture_tells_is_kept_and_what_scans_to_come_tell_is_not) {
   ObjectTrack track = known_track(2, 1);
   track.state.covariance(3, 3) = 4;

@@ -275,6 +275,29 @@ TEST(LidarUpsampler, a_car_stays_one_track_and_in_place_from_one_camera_to_the_n
   EXPECT_EQ(tracks.size(), 1U);
 }
 
+TEST(LidarUpsampler, two_cameras_that_shutter_by_turns_both_know_of_a_car) {
+  StreetRun street(
+      "[scenario]\nduration_s = 0.2\n[camera.REAR]\nwidth = 414\nheight = 125\nfx = 240\n"
+      "rate_hz = 30\nphase_s = 0.017\norientation_deg = 180 0 0\n");
+  LidarUpsampler upsampler{moving_points()};
+  upsampler.expect_cameras({"CAM0", "REAR"});
+  const int car = car_at_velocity(street, 11);
+  const auto behind = sim::stamps_of(30, 0.017, 0.2);
+  int num_behind = 0;
+  for (const VirtualScan& scan : street.run(upsampler)) {
+    if (scan.scan.stamp < shifted(street_begin(), 0.03))
+      continue;  // no picture of it has been taken
+    num_behind += static_cast<int>(std::count(behind.begin(), behind.end(), scan.scan.stamp));
+    const ObjectMotion* told = motion_of(street, scan, car);
+    ASSERT_NE(told, nullptr);
+    EXPECT_EQ(told->camera_label, "CAM0");
+    const Pose truth = street.true_motion(car, scan.key_stamp, scan.scan.stamp);
+    const Eigen::Vector3d& centroid = told->centroid_lidar_k;
+    EXPECT_LT((told->T_lidar_t_lidar_k * centroid - truth * centroid).norm(), 0.3);
+  }
+  EXPECT_GE(num_behind, 3);
+}
+
 TEST(LidarUpsampler, each_beam_measures_what_the_sensor_would_have_measured) {
   StreetRun street("[scenario]\nduration_s = 0.2\n");
   LidarUpsampler upsampler{Config()};

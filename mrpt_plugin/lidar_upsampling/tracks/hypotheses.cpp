@@ -225,6 +225,18 @@ void learn(const Heard& heard, const std::vector<Way>& ways, const MotionExpecte
   answer.log_odds += answer.log_ratio;
 }
 
+/// Where this picture says nothing, an earlier one since the last sight does.
+void go_on_as_told(const ObjectTrack& track, const MotionQuestion& question, const Matrix6d& common,
+                   const TrackOptions& options, MotionAnswer& answer) {
+  answer.state = predicted(track.latest, question.instant, options.noise);
+  const MotionExpected expected =
+      expected_motion(answer.state, question.R_rest_lidar_k,
+                      seconds_between(track.stamp, question.instant), options);
+  answer.moving.mean = expected.mean;
+  answer.moving.covariance = expected.covariance + common;
+  answer.log_odds = track.latest_log_odds;
+}
+
 }  // namespace
 
 MotionExpected expected_motion(const TrackState& at_instant, const Eigen::Matrix3d& R_rest_lidar_k,
@@ -271,6 +283,8 @@ MotionAnswer estimate_motion(const ObjectTrack& track, const ImageFactor& image,
   if (is_shown)
     learn(hear(track.stamp, image, question, ways, parked, starts, options), ways, parked,
           of_picture, question, answer);
+  if (!answer.is_seen && is_told_by_picture(track, options))
+    go_on_as_told(track, question, parked.covariance, options, answer);
   answer.moves = options.static_test ? answer.log_odds > std::log(options.loss_ratio)
                                      : answer.is_seen || answer.log_odds > 0;
   answer.log_odds = std::clamp(answer.log_odds, -kMostLogOdds, kMostLogOdds);

@@ -166,6 +166,10 @@ void go_on(ObjectTrack& track, TrackState now, const Pose& T_rest_lidar,
   track.settled.reset();
 }
 
+bool is_told_by_picture(const ObjectTrack& track, const TrackOptions& options) {
+  return options.image_factor && !track.ahead && track.latest.stamp != track.stamp;
+}
+
 std::vector<Course> courses_of(const ObjectTrack& track, const TrackOptions& options) {
   const bool is_told = options.image_factor && track.latest.stamp != track.stamp;
   if (!is_told && !track.beginnings.empty()) return track.beginnings;

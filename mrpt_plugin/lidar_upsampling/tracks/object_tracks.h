@@ -108,6 +108,10 @@ struct TrackedScan {
   Stamp stamp_before;
 };
 
+/// @brief Whether an image since its last sight told something of it that scans to come do not tell
+/// better.
+[[nodiscard]] bool is_told_by_picture(const ObjectTrack& track, const TrackOptions& options);
+
 /// @brief As images have told since, as known before (they may be wrong), or any (that may be,
 /// too); as long as nothing has told: its beginnings. The probabilities sum to one.
 [[nodiscard]] std::vector<Course> courses_of(const ObjectTrack& track, const TrackOptions& options);

@@ -73,13 +73,23 @@ PlanarStep centroid_step(const ObjectTrack& track, const ScanObject& object,
   return step;
 }
 
-/// The share of its surface that lies across a direction, and not along it.
+constexpr float kAcross = 0.5F;  // a normal within 60 degrees
+
+/// The share of its surface that lies across a direction.
 double share_across(const std::vector<Eigen::Vector3f>& normals, const Eigen::Vector2d& d) {
-  constexpr float kAcross = 0.5F;  // within 60 degrees
   const auto lies_across = [&](const Eigen::Vector3f& normal) {
     return std::abs(normal.head<2>().dot(d.cast<float>())) > kAcross;
   };
   return std::count_if(normals.begin(), normals.end(), lies_across) /
+         static_cast<double>(normals.size());
+}
+
+/// The share that lies along it. Of what has no normal, neither is known.
+double share_along(const std::vector<Eigen::Vector3f>& normals, const Eigen::Vector2d& d) {
+  const auto lies_along = [&](const Eigen::Vector3f& normal) {
+    return !normal.isZero() && std::abs(normal.head<2>().dot(d.cast<float>())) <= kAcross;
+  };
+  return std::count_if(normals.begin(), normals.end(), lies_along) /
          static_cast<double>(normals.size());
 }
 
@@ -193,7 +203,7 @@ double density_of_locked(const ObjectTrack& track, const std::vector<Eigen::Vect
                                           step.covariance.topLeftCorner<2, 2>());
   const Eigen::Vector2d ahead = level_axes(T_rest_lidar.linear()).transpose() * with_us.head<2>();
   if (ahead.norm() < 1e-3) return density;
-  return density * (1 - share_across(normals, ahead.normalized()));
+  return density * share_along(normals, ahead.normalized());
 }
 
 /// Parked or moving, by the step, and on which course.
