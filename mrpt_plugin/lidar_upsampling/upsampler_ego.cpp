@@ -24,7 +24,9 @@ std::optional<EgoStep> LidarUpsampler::given_step(const LidarScan& scan, Stamp i
   if (!ego_motion_.fuses()) return step;
   const double dt = std::max(1e-3, std::abs(seconds_between(scan.stamp, instant)));
   const Twist usual = usual_noise(ego_motion_.source(), step->T_to_from.translation() / dt);
-  step->covariance = likely_noise(pose_noise_, usual).asDiagonal();
+  Twist noise = likely_noise(pose_noise_, usual);
+  if (ego_motion_.source() == EgoSource::gnss) noise = noise.cwiseMax(smoothing_noise(dt));
+  step->covariance = noise.asDiagonal();
   return step;
 }
 

@@ -181,6 +181,17 @@ TEST(EgoFusion, a_registration_is_worst_along_the_way) {
   EXPECT_DOUBLE_EQ(standing(3, 3), standing(4, 4));
 }
 
+TEST(EgoFusion, fixes_that_have_fitted_a_straight_road_leave_a_turn_to_the_scans) {
+  const Pose straight(Eigen::Translation3d(-1, 0, 0));
+  Twist turn = Twist::Zero();
+  turn[2] = 0.003;  // in a tenth of a second: begun, and smoothed away
+  const EgoStep fixes = taken(wrong_by(straight, Twist::Zero(), kBelieved), smoothing_noise(0.1));
+  const EgoStep scans = wrong_by(straight, turn, kBelieved);
+  const EgoStep joined = fused(fixes, scans);
+  EXPECT_NEAR(log_se3(joined.T_to_from * straight.inverse())[2], turn[2], 1e-4);
+  EXPECT_NEAR(joined.T_to_from.translation().x(), -1, 1e-3) << "the place is that of the fixes";
+}
+
 TEST(EgoFusion, before_any_registration_the_usual_noise_holds) {
   const Twist slow = usual_noise(EgoSource::poses, kStanding);
   EXPECT_EQ(likely_noise({}, slow), slow);

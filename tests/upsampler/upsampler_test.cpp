@@ -3,9 +3,11 @@
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
+#include <GeographicLib/LocalCartesian.hpp>
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <random>
 #include <set>
 #include <string>
 #include <utility>
@@ -296,6 +298,30 @@ TEST(LidarUpsampler, two_cameras_that_shutter_by_turns_both_know_of_a_car) {
     EXPECT_LT((told->T_lidar_t_lidar_k * centroid - truth * centroid).norm(), 0.3);
   }
   EXPECT_GE(num_behind, 3);
+}
+
+TEST(LidarUpsampler, a_turn_that_smoothed_fixes_cut_moves_nothing_that_stands) {
+  StreetRun street(
+      "[scenario]\nduration_s = 1.4\n[ego]\nmotion = 0.9 0 15\n[vehicle.lead]\nspeed_mps = 0\n"
+      "[vehicle.oncoming]\nspeed_mps = 0\n");
+  LidarUpsampler upsampler{moving_points()};
+  const GeographicLib::LocalCartesian world(49, 8.4, 115);
+  std::mt19937 random(5);
+  std::normal_distribution<double> noise_m(0, 0.03);
+  for (const Stamp stamp : sim::stamps_of(10, 0, 2)) {
+    Eigen::Vector3d at = street.world.T_world_vehicle(sim::time_of(stamp)).translation();
+    at += Eigen::Vector3d(noise_m(random), noise_m(random), noise_m(random));
+    GnssSample fix{stamp, 0, 0, 0, Eigen::Vector3d::Zero()};
+    world.Reverse(at.x(), at.y(), at.z(), fix.latitude_deg, fix.longitude_deg, fix.height_m);
+    upsampler.ego_motion().add_gnss(fix);
+  }
+  double worst = 0;
+  for (const VirtualScan& scan : street.run(upsampler, false)) {
+    if (scan.scan.stamp < shifted(street_begin(), 0.5))
+      continue;  // it takes scans to know the fixes
+    worst = std::max(worst, point_errors(street, scan).standing);
+  }
+  EXPECT_LT(worst, 0.02);
 }
 
 TEST(LidarUpsampler, each_beam_measures_what_the_sensor_would_have_measured) {

@@ -86,6 +86,15 @@ Twist usual_noise(EgoSource source, const Eigen::Vector3d& velocity) {
   return variance;
 }
 
+Twist smoothing_noise(double dt) {
+  constexpr double kTurn_rad_s = 0.05;  // of a turn that begins within the half second of a fit
+  constexpr double kStep_m = 0.001;     // it is the heading that is cut, and not the place
+  Twist variance;
+  variance.head<3>().setConstant(squared(kTurn_rad_s * dt));
+  variance.tail<3>().setConstant(squared(kStep_m));
+  return variance;
+}
+
 Twist likely_noise(const PoseNoise& noise, const Twist& usual) {
   if (noise.steps.empty()) return usual;
   Twist alone, together;

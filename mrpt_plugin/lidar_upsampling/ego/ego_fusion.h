@@ -40,6 +40,11 @@ void note_step(PoseNoise& noise, const EgoStep& given, const EgoStep& registered
 /// @param velocity m/s, of the lidar: clocks are not set to the millisecond.
 [[nodiscard]] Twist usual_noise(EgoSource source, const Eigen::Vector3d& velocity);
 
+/// @brief Variances, rad^2 and m^2, that steps of smoothed fixes have at least, however well they
+/// have fitted a straight road: smoothing cuts corners.
+/// @param dt s, of the step.
+[[nodiscard]] Twist smoothing_noise(double dt);
+
 /// @brief Variances per axis, rad^2 and m^2, of a step between two of the given poses, however far
 /// apart they lie: the most likely ones, truncated at zero. Zero are those of poses that are exact
 /// as far as scans can tell, which one axis alone does not gainsay. No axis counts as better than
