@@ -38,12 +38,15 @@ class Film {
     cv::Mat picture;
   };
   void add(Stamp stamp, const BirdScene& scene, const cv::Mat& camera);
-  void write(const Frame& frame);
+  void write(Stamp stamp);
   [[nodiscard]] const CameraImage* image_at(Stamp stamp) const;
 
   std::string path_;
   std::unique_ptr<TemporaryName> unfinished_;
   cv::VideoWriter writer_;
+  /// The one being drawn, always at one place: among what else comes and goes, frames of 3 MB would
+  /// leave gaps that are never filled.
+  cv::Mat frame_;
   std::optional<Frame> waiting_;  ///< the first, until the second tells the rate
   std::deque<CameraImage> images_;
   std::optional<LidarScan> real_;
