@@ -2,6 +2,8 @@
 // Copyright (c) 2026, the lidar_upsampling authors
 #include "film.h"
 
+#include <malloc.h>
+
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -30,6 +32,16 @@ cv::Mat fitted(const cv::Mat& picture) {
   return result.rowRange(0, result.rows / 2 * 2);
 }
 
+/// glibc puts pictures on the heap once some have been freed. There small things that stay fall
+/// into the gaps, which the next picture no longer fits into: 10 MB a second of log. An encoder
+/// takes far longer than mapping them anew does.
+void map_large_blocks() {
+#ifdef M_MMAP_THRESHOLD
+  constexpr int kLarge = 1 << 20;
+  mallopt(M_MMAP_THRESHOLD, kLarge);
+#endif
+}
+
 int code_for(const std::string& path) {
   return fs::path(path).extension() == ".avi" ? cv::VideoWriter::fourcc('M', 'J', 'P', 'G')
                                               : cv::VideoWriter::fourcc('a', 'v', 'c', '1');
@@ -42,6 +54,7 @@ Film::Film(std::string path) : path_(std::move(path)) {
   if (ending != ".mp4" && ending != ".avi" && ending != ".mkv")
     throw std::runtime_error(path_ + ": a film ends in .mp4, .avi or .mkv");
   unfinished_ = std::make_unique<TemporaryName>(path_, ending);
+  map_large_blocks();
 }
 
 void Film::real_scan(const LidarScan& scan) {

@@ -16,7 +16,8 @@
 namespace lidar_upsampling {
 
 /// @brief A film of a densification, slowed down: the camera above, below it from above on the left
-/// the scans as the sensor took them, on the right with virtual ones.
+/// the scans as the sensor took them, on the right with virtual ones. From then on the
+/// process keeps large blocks of memory off its heap.
 class Film {
  public:
   /// @param path .mp4, .avi or .mkv; it appears when the film is finished.
@@ -44,9 +45,7 @@ class Film {
   std::string path_;
   std::unique_ptr<TemporaryName> unfinished_;
   cv::VideoWriter writer_;
-  /// The one being drawn, always at one place: among what else comes and goes, frames of 3 MB would
-  /// leave gaps that are never filled.
-  cv::Mat frame_;
+  cv::Mat frame_;                 ///< the one being drawn
   std::optional<Frame> waiting_;  ///< the first, until the second tells the rate
   std::deque<CameraImage> images_;
   std::optional<LidarScan> real_;
