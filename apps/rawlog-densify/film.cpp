@@ -139,12 +139,14 @@ bool Film::finish() {
   if (!writer_.isOpened()) return false;
   writer_.release();
   // A copy, as the encoder does not tell of what a full disk did not take.
-  OutputFile film(path_, {true});
+  // Opened first: the output removes temporary names that nobody has locked.
   std::ifstream encoded(unfinished_->path(), std::ios::binary);
+  OutputFile film(path_, {true});
   for (std::vector<char> block(1U << 20U); encoded;) {
     encoded.read(block.data(), static_cast<std::streamsize>(block.size()));
     film.write(block.data(), static_cast<std::size_t>(encoded.gcount()));
   }
+  if (film.size() == 0) throw std::runtime_error(path_ + ": the encoder has written nothing");
   film.commit();
   return true;
 }
