@@ -11,16 +11,15 @@
 #include <memory>
 #include <set>
 
-#include "drawing.h"
+#include "camera_comparison.h"
 #include "ego_ahead.h"
 #include "lidar_upsampling/front_end/pose_input.h"
 #include "lidar_upsampling/front_end/usable_observations.h"
 #include "lidar_upsampling/io/carriers.h"
+#include "lidar_upsampling/io/file_places.h"
 #include "lidar_upsampling/registration/scan_registration.h"
 #include "lidar_upsampling/scan/sweep.h"
-#include "lidar_upsampling/vision/projection.h"
 #include "log_ahead.h"
-#include "pictures.h"
 #include "streams.h"
 
 namespace lidar_upsampling {
@@ -31,31 +30,11 @@ using mrpt::obs::CObservationImage;
 
 constexpr std::size_t kMostScans = 120;
 
-/// A scan that was looked at, and how the lidar moved about its stamp, if that is known.
-struct PlacedScan {
-  LidarScan scan;
-  std::function<Pose(double)> lidar_step;
-  std::shared_ptr<const LidarScan> before;
-};
-
-struct CameraUnderway {
-  CameraCheck result;
-  std::map<Stamp, Stamp> scan_of_image;
-  std::map<Stamp, CameraImage> waiting;  ///< images whose scan has not come yet
-  std::vector<OffsetScores> scores;
-  Stamp middle;  ///< the image to draw on
-};
-
 Stamp nearest(const std::vector<Stamp>& sorted, Stamp stamp) {
   const auto next = std::lower_bound(sorted.begin(), sorted.end(), stamp);
   if (next == sorted.end()) return sorted.back();
   if (next == sorted.begin()) return *next;
   return stamp - *std::prev(next) <= *next - stamp ? *std::prev(next) : *next;
-}
-
-LidarScan moved(LidarScan scan, const Pose& T) {
-  for (Eigen::Vector3f& point : scan.points) point = (T * point.cast<double>()).cast<float>();
-  return scan;
 }
 
 /// Goes through the log once: each chosen scan meets the nearest picture of each camera.
@@ -99,14 +78,7 @@ class Checker {
   }
 
   void finish() {
-    for (auto& [label, camera] : cameras_) {
-      CameraCheck& check = camera.result;
-      if (check.num_compared > 0) check.share_in_view /= static_cast<double>(check.num_compared);
-      TimeOffsetOptions options;
-      options.max_sigma_s = options.max_offset_s;  // whoever reads it judges
-      check.time_offset = estimate_time_offset(camera.scores, options);
-      result_.cameras.push_back(std::move(check));
-    }
+    for (const auto& [label, camera] : cameras_) result_.cameras.push_back(camera.finish());
     if (result_.num_scans > 0) result_.mean_points /= static_cast<double>(result_.num_scans);
   }
 
@@ -116,19 +88,28 @@ class Checker {
     std::sort(scans.begin(), scans.end());
     const std::size_t stride = 1 + (scans.size() - 1) / kMostScans;
     for (const StreamInfo* stream : streams.cameras) {
-      CameraUnderway& camera = cameras_[stream->label];
-      if (stream->camera) camera.result.camera = *stream->camera;
-      apply(job_.rig, camera.result.camera);
+      Camera camera = stream->camera.value_or(Camera());
+      apply(job_.rig, camera);
+      CameraComparison comparison(camera, 1e-3 * job_.config.timing.camera_time_offset_ms);
       std::vector<Stamp> images = stream->stamps;
       std::sort(images.begin(), images.end());
+      std::optional<Stamp> middle;
       for (std::size_t i = 0; i < scans.size(); i += stride) {
         const Stamp image = nearest(images, scans[i]);
         if (std::abs(seconds_between(scans[i], image)) > 0.5 * period_s_) continue;
-        camera.scan_of_image[image] = scans[i];
-        if (camera.middle == Stamp() || i <= scans.size() / 2) camera.middle = image;
+        comparison.pair(image, scans[i]);
+        if (!middle || i <= scans.size() / 2) middle = image;
         chosen_.insert(scans[i]);
       }
+      if (middle && !job_.pictures.empty())
+        comparison.draw_on(*middle, overlay_file(stream->label));
+      cameras_.emplace(stream->label, std::move(comparison));
     }
+  }
+
+  std::string overlay_file(const std::string& label) {
+    const std::filesystem::path folder(job_.pictures);
+    return (folder / ("overlay_" + names_.of(label) + ".png")).string();
   }
 
   void feed_scan(const CObservation& observation) {
@@ -143,59 +124,23 @@ class Checker {
         return placed.lidar_step ? placed.lidar_step(t).inverse() : Pose::Identity();
       });
       note(placed.scan, !scan->time_s.empty());
-      for (auto& [label, camera] : cameras_) meet_waiting(camera, placed);
+      for (auto& [label, camera] : cameras_) camera.take(placed);
     }
     constexpr std::size_t kRemembered = 3;
     while (scans_.size() > kRemembered) scans_.erase(scans_.begin());
     previous_ = std::make_shared<LidarScan>(std::move(*scan));
   }
 
-  void feed_image(CameraUnderway& camera, const CObservationImage& observation) {
-    const auto pair = camera.scan_of_image.find(observation.timestamp);
-    if (pair == camera.scan_of_image.end()) return;
+  void feed_image(CameraComparison& camera, const CObservationImage& observation) {
+    const std::optional<Stamp> stamp = camera.scan_of(observation.timestamp);
+    if (!stamp) return;
     std::optional<CameraImage> image = usable_.image(observation);
     if (!image) return;
-    const auto scan = scans_.find(pair->second);
+    const auto scan = scans_.find(*stamp);
     if (scan != scans_.end())
-      compare(camera, scan->second, *image);
+      camera.compare(scan->second, *image);
     else
-      camera.waiting[image->stamp] = std::move(*image);
-  }
-
-  void meet_waiting(CameraUnderway& camera, const PlacedScan& scan) {
-    for (auto image = camera.waiting.begin(); image != camera.waiting.end();) {
-      if (camera.scan_of_image.at(image->first) != scan.scan.stamp) {
-        ++image;
-        continue;
-      }
-      compare(camera, scan, image->second);
-      image = camera.waiting.erase(image);
-    }
-  }
-
-  void compare(CameraUnderway& camera, const PlacedScan& placed, const CameraImage& image) {
-    const LidarScan& scan = placed.scan;
-    const double dt =
-        seconds_between(scan.stamp, image.stamp) - 1e-3 * job_.config.timing.camera_time_offset_ms;
-    const LidarScan then =
-        moved(scan, placed.lidar_step ? placed.lidar_step(dt) : Pose::Identity());
-    CameraCheck& check = camera.result;
-    const Pose T_camera_lidar = image.camera.T_vehicle_camera.inverse() * scan.T_vehicle_lidar;
-    check.camera = image.camera;
-    check.share_in_view +=
-        static_cast<double>(project_scan(image.camera.model, T_camera_lidar, then.points).size()) /
-        static_cast<double>(scan.size());
-    ++check.num_compared;
-    if (placed.lidar_step)
-      if (const auto scores =
-              score_time_offsets({scan, image, placed.lidar_step, placed.before.get()}))
-        camera.scores.push_back(*scores);
-    if (job_.pictures.empty() || image.stamp != camera.middle) return;
-    check.overlay = (std::filesystem::path(job_.pictures) /
-                     ("overlay_" + names_.of(image.camera.label) + ".png"))
-                        .string();
-    std::filesystem::create_directories(job_.pictures);
-    write_picture(check.overlay, overlay(then, image, DepthScale::for_scan(then)));
+      camera.keep(std::move(*image));
   }
 
   // The ego-motion that the log holds, else that since the scan before, going on.
@@ -234,7 +179,7 @@ class Checker {
   std::map<Stamp, PlacedScan> scans_;  ///< the last ones chosen
   std::shared_ptr<const LidarScan> previous_;
   Twist rate_ = Twist::Zero();
-  std::map<std::string, CameraUnderway> cameras_;
+  std::map<std::string, CameraComparison> cameras_;
   FileNames names_;
 };
 

@@ -2,13 +2,15 @@
 // Copyright (c) 2026, the lidar_upsampling authors
 #include "film.h"
 
+#include <malloc.h>
+
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <opencv2/imgproc.hpp>
 #include <stdexcept>
+#include <vector>
 
 #include "lidar_upsampling/io/output_file.h"
 
@@ -25,12 +27,19 @@ cv::Mat fitted(const cv::Mat& picture) {
   constexpr int kHighest_px = 420;
   const double scale =
       std::min(double(kWidth_px) / picture.cols, double(kHighest_px) / picture.rows);
-  cv::Mat small;
-  cv::resize(picture, small, {}, scale, scale, scale < 1 ? cv::INTER_AREA : cv::INTER_LINEAR);
-  cv::Mat result(small.rows / 2 * 2, kWidth_px, CV_8UC3, cv::Scalar::all(0));
-  const int left = (kWidth_px - small.cols) / 2;
-  small.rowRange(0, result.rows).copyTo(result.colRange(left, left + small.cols));
-  return result;
+  cv::Mat result;
+  cv::resize(picture, result, {}, scale, scale, scale < 1 ? cv::INTER_AREA : cv::INTER_LINEAR);
+  return result.rowRange(0, result.rows / 2 * 2);
+}
+
+/// glibc puts pictures on the heap once some have been freed. There small things that stay fall
+/// into the gaps, which the next picture no longer fits into: 10 MB a second of log. An encoder
+/// takes far longer than mapping them anew does.
+void map_large_blocks() {
+#ifdef M_MMAP_THRESHOLD
+  constexpr int kLarge = 1 << 20;
+  mallopt(M_MMAP_THRESHOLD, kLarge);
+#endif
 }
 
 int code_for(const std::string& path) {
@@ -45,6 +54,7 @@ Film::Film(std::string path) : path_(std::move(path)) {
   if (ending != ".mp4" && ending != ".avi" && ending != ".mkv")
     throw std::runtime_error(path_ + ": a film ends in .mp4, .avi or .mkv");
   unfinished_ = std::make_unique<TemporaryName>(path_, ending);
+  map_large_blocks();
 }
 
 void Film::real_scan(const LidarScan& scan) {
@@ -99,34 +109,45 @@ void Film::add(Stamp stamp, const BirdScene& scene, const cv::Mat& camera) {
   const cv::Mat& left = as_taken_;
   const cv::Mat right = from_above(scene, nullptr, trails_, cameras, real_->T_vehicle_lidar, view_);
   const cv::Mat above = fitted(camera);
-  cv::Mat picture((above.rows + left.rows + 8) / 2 * 2, kWidth_px, CV_8UC3, cv::Scalar::all(0));
-  above.copyTo(picture.rowRange(0, above.rows));
-  const cv::Mat below = picture.rowRange(picture.rows - left.rows, picture.rows);
+  frame_.create((above.rows + left.rows + 8) / 2 * 2, kWidth_px, CV_8UC3);
+  frame_.setTo(cv::Scalar::all(0));
+  const int margin = (kWidth_px - above.cols) / 2;
+  above.copyTo(frame_.rowRange(0, above.rows).colRange(margin, margin + above.cols));
+  const cv::Mat below = frame_.rowRange(frame_.rows - left.rows, frame_.rows);
   left.copyTo(below.colRange(0, left.cols));
   right.copyTo(below.colRange(kWidth_px - right.cols, kWidth_px));
-  write({stamp, picture});
+  write(stamp);
 }
 
-void Film::write(const Frame& frame) {
+void Film::write(Stamp stamp) {
   if (!writer_.isOpened() && !waiting_) {
-    waiting_ = frame;
+    waiting_ = {stamp, frame_.clone()};
     return;
   }
   if (!writer_.isOpened()) {
-    const double interval_s = seconds_between(waiting_->stamp, frame.stamp);
+    const double interval_s = seconds_between(waiting_->stamp, stamp);
     const double rate = std::clamp(1 / (kSlower * std::max(1e-3, interval_s)), 1., 60.);
-    if (!writer_.open(unfinished_->path(), code_for(path_), rate, frame.picture.size()))
+    if (!writer_.open(unfinished_->path(), code_for(path_), rate, frame_.size()))
       throw std::runtime_error(path_ + ": OpenCV cannot write a film of this kind; try .avi");
     writer_.write(waiting_->picture);
+    waiting_.reset();
   }
-  writer_.write(frame.picture);
+  writer_.write(frame_);
 }
 
 bool Film::finish() {
   if (!writer_.isOpened()) return false;
   writer_.release();
-  std::ifstream file(unfinished_->path(), std::ios::binary);
-  write_file(path_, {std::istreambuf_iterator<char>(file), {}});
+  // A copy, as the encoder does not tell of what a full disk did not take.
+  // Opened first: the output removes temporary names that nobody has locked.
+  std::ifstream encoded(unfinished_->path(), std::ios::binary);
+  OutputFile film(path_, {true});
+  for (std::vector<char> block(1U << 20U); encoded;) {
+    encoded.read(block.data(), static_cast<std::streamsize>(block.size()));
+    film.write(block.data(), static_cast<std::size_t>(encoded.gcount()));
+  }
+  if (film.size() == 0) throw std::runtime_error(path_ + ": the encoder has written nothing");
+  film.commit();
   return true;
 }
 

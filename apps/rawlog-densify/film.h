@@ -16,7 +16,8 @@
 namespace lidar_upsampling {
 
 /// @brief A film of a densification, slowed down: the camera above, below it from above on the left
-/// the scans as the sensor took them, on the right with virtual ones.
+/// the scans as the sensor took them, on the right with virtual ones. From then on the
+/// process keeps large blocks of memory off its heap.
 class Film {
  public:
   /// @param path .mp4, .avi or .mkv; it appears when the film is finished.
@@ -38,12 +39,13 @@ class Film {
     cv::Mat picture;
   };
   void add(Stamp stamp, const BirdScene& scene, const cv::Mat& camera);
-  void write(const Frame& frame);
+  void write(Stamp stamp);
   [[nodiscard]] const CameraImage* image_at(Stamp stamp) const;
 
   std::string path_;
   std::unique_ptr<TemporaryName> unfinished_;
   cv::VideoWriter writer_;
+  cv::Mat frame_;                 ///< the one being drawn
   std::optional<Frame> waiting_;  ///< the first, until the second tells the rate
   std::deque<CameraImage> images_;
   std::optional<LidarScan> real_;

@@ -2,8 +2,6 @@
 // Copyright (c) 2026, the lidar_upsampling authors
 #include <mrpt/obs/CObservationImage.h>
 #include <mrpt/obs/CSensoryFrame.h>
-#include <mrpt/rtti/CObject.h>
-#include <tbb/parallel_invoke.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -12,15 +10,11 @@
 #include <stdexcept>
 #include <utility>
 
-#include "instant_reference.h"
-#include "key_objects.h"
+#include "key_scans.h"
 #include "label_judge.h"
-#include "lidar_upsampling/front_end/pose_input.h"
 #include "lidar_upsampling/front_end/usable_observations.h"
 #include "lidar_upsampling/io/carriers.h"
 #include "lidar_upsampling/io/sensory_frame.h"
-#include "lidar_upsampling/objects/ground.h"
-#include "lidar_upsampling/registration/scan_registration.h"
 #include "log_streams.h"
 #include "rawlog-densify/densification.h"
 #include "rawlog-densify/ego_ahead.h"
@@ -31,28 +25,18 @@ namespace lidar_upsampling {
 
 namespace {
 
-/// A key scan and all that is judged once for it.
-struct KeyScan {
-  LidarScan scan;
-  std::vector<ObjectReference> objects;
-  std::optional<RegisteredMotions> motions;
-  std::optional<LastMotions> last_motions;  ///< none without a scan before
-};
-
 /// Goes once through the densified log. The `paper` row's run is fed alongside, so that its virtual
 /// scans come up when ours do.
 class Walk {
  public:
-  /// @param reference null: by labels alone.
-  Walk(const EvaluationJob& job, const LogIndex& input, const LogIndex* reference,
-       LogResult& result)
+  Walk(const EvaluationJob& job, const LogIndices& indices, LogResult& result)
       : job_(job),
         result_(result),
-        cameras_(calibrated_cameras(input)),
+        cameras_(calibrated_cameras(indices.input)),
         queue_(job_, cameras_, result_.scans) {
-    const std::vector<Stamp>& real = input.find(result.label, StreamKind::lidar)->stamps;
-    if (reference != nullptr) {
-      const StreamInfo& stream = reference_stream(*reference, result.label);
+    const std::vector<Stamp>& real = indices.input.find(result.label, StreamKind::lidar)->stamps;
+    if (indices.reference) {
+      const StreamInfo& stream = reference_stream(*indices.reference, result.label);
       references_.emplace(LogFile(job.reference, job.accept_truncated), stream.label, stream.stamps,
                           real, job.tolerance_s);
       if (references_->none_withheld())
@@ -64,9 +48,12 @@ class Walk {
         result_.notes.push_back(job.truth_objects + ": " + warning);
       labels_.emplace(*truth_, job_.options, cameras_, real);
     }
+    keys_.emplace(job_.options, cameras_, truth_ ? &*truth_ : nullptr,
+                  references_ ? &*references_ : nullptr);
     if (!job.paper_row) return;
     try {
-      paper_.emplace(job.paper, without_virtual(input, result.virtual_label), paper_report_);
+      paper_.emplace(job.paper, without_virtual(indices.input, result.virtual_label),
+                     paper_report_);
       if (labels_)
         paper_report_.rows = std::make_shared<ReportRows>(scratch_place(job.scratch_beside));
     } catch (const std::exception& error) {
@@ -121,34 +108,8 @@ class Walk {
   }
 
   void take_key(LidarScan scan) {
-    const auto previous = std::exchange(key_, std::make_shared<KeyScan>());
-    key_->scan = std::move(scan);
-    const LidarScan& key = key_->scan;
-    if (references_) {
-      key_->objects = truth_ ? objects_by_truth(key, *truth_, job_.options.min_points_truth)
-                             : objects_by_clusters(key);
-      key_->motions.emplace(key, key_->objects, job_.options);
-    }
-    if (previous) prepare_last_motions(previous->scan);
-    if (labels_) labels_->take_key(key, key_->last_motions ? &*key_->last_motions : nullptr);
-  }
-
-  void prepare_last_motions(const LidarScan& previous) {
-    const double dt = seconds_between(previous.stamp, key_->scan.stamp);
-    if (!(dt > 0)) return;
-    if (const auto T_previous_key = ego_motion_back_to(previous))
-      key_->last_motions.emplace(previous, *T_previous_key, dt);
-  }
-
-  [[nodiscard]] std::optional<Pose> ego_motion_back_to(const LidarScan& previous) const {
-    const LidarScan& key = key_->scan;
-    if (truth_) {
-      const auto T = true_ego_motion(*truth_, previous, key.stamp);
-      return T ? std::make_optional(T->inverse()) : std::nullopt;
-    }
-    const double dt = seconds_between(previous.stamp, key.stamp);
-    const auto found = register_scans(key.points, previous.points, exp_se3(Twist(-dt * ego_rate_)));
-    return found ? std::make_optional(found->T_target_source) : std::nullopt;
+    keys_->take(std::move(scan));
+    if (labels_) labels_->take_key(*keys_->scan(), keys_->last_motions());
   }
 
   [[nodiscard]] std::optional<LidarScan> paper_at(Stamp stamp) {
@@ -192,30 +153,13 @@ class Walk {
   }
 
   void judge(Waiting& waiting, std::optional<LidarScan> paper) {
-    const LidarScan& scan = waiting.scan;
-    const double dt = key_ ? seconds_between(key_->scan.stamp, scan.stamp) : 0;
-    std::optional<InstantReference> reference;
-    if (dt > 0) reference = reference_at(scan.stamp);
+    std::optional<InstantReference> reference = keys_->reference_at(waiting.scan.stamp);
     if (!reference) {
       ++result_.num_unmatched;
       return;
     }
-    ego_rate_ = log_se3(reference->T_ego) / dt;
-    if (key_->last_motions) {
-      key_->last_motions->find(key_->objects, reference->indices, key_->scan);
-      for (std::size_t i = 0; i < reference->indices.size(); ++i)
-        reference->objects[i].last_motion = key_->objects[reference->indices[i]].last_motion;
-    }
-    queue_.add({std::shared_ptr<const LidarScan>(key_, &key_->scan), std::move(waiting.scan),
-                std::move(paper), std::move(*reference), std::move(waiting.pictures)});
-  }
-
-  std::optional<InstantReference> reference_at(Stamp stamp) {
-    const auto around = references_->around(stamp, key_->scan.stamp);
-    if (!around) return {};
-    const InstantRequest request{key_->scan, key_->objects, *around, stamp, cameras_, job_.options};
-    return truth_ ? reference_by_truth(*truth_, request)
-                  : reference_by_registration(*key_->motions, request, ego_rate_);
+    queue_.add({keys_->scan(), std::move(waiting.scan), std::move(paper), std::move(*reference),
+                std::move(waiting.pictures)});
   }
 
   const EvaluationJob& job_;
@@ -224,16 +168,15 @@ class Walk {
   std::optional<ReferenceScans> references_;  ///< none: by labels alone
   std::optional<Truth> truth_;
   std::optional<LabelJudge> labels_;
+  std::optional<KeyScans> keys_;
   DensifyReport paper_report_;
   std::optional<Densification> paper_;
-  std::shared_ptr<KeyScan> key_;
   std::vector<Waiting> ours_;
   std::vector<LidarScan> papers_;
   Pictured pictures_;
   UnusedCounts unused_;
   UsableObservations usable_{counted_in(unused_)};
   ScanQueue queue_;
-  Twist ego_rate_ = Twist::Zero();  ///< per second, of the last ego-motion: the next one's guess
 };
 
 void feed_entry(const RawlogEntry& entry, Walk& walk) {
@@ -245,41 +188,31 @@ void feed_entry(const RawlogEntry& entry, Walk& walk) {
     walk.feed(std::dynamic_pointer_cast<mrpt::obs::CObservation>(part.object));
 }
 
-}  // namespace
-
-LogResult evaluate_log(const EvaluationJob& job, const std::function<void(double)>& progress) {
-  LogIndex input;
-  std::optional<LogIndex> reference;
-  bool goes_by = true;                      // the vehicle's motion, beside the log
-  mrpt::rtti::registerAllPendingClasses();  // not by two threads at a time
-  tbb::parallel_invoke(
-      [&] {
-        const LogFile log{job.input, job.accept_truncated};
-        input = index_streams(log);
-        goes_by = !job.paper_row || ego_goes_by(job.paper.config, input);
-        if (!goes_by) input = index_log(log);
-      },
-      [&] {
-        if (!job.reference.empty())
-          reference = index_streams({job.reference, job.accept_truncated});
-      });
-  take_poses_from_file(job.paper.config, job.paper.rig, input);
+/// Of what is known before the log goes by.
+LogResult begun(const EvaluationJob& job, const LogIndices& indices) {
   LogResult result;
   result.scans = ScanResults(job.scratch_beside);
   result.input = job.input;
   result.reference = job.reference;
-  result.label = find_label(input, job.label);
+  result.label = find_label(indices.input, job.label);
   result.virtual_label = result.label + kVirtualEnding;
   result.tolerance_s = job.tolerance_s;
   result.has_truth = !job.truth_objects.empty();
   if (job.options.protocol) result.protocol = job.options.protocol->name;
-  if (input.corruption) result.notes.push_back(*input.corruption);
-  if (reference && reference->corruption) result.notes.push_back(*reference->corruption);
-  Walk walk(job, input, reference ? &*reference : nullptr, result);
-  input = LogIndex();  // of an hour some megabytes
-  const bool by_labels_alone = !reference;
-  reference.reset();
-  const bool looks_ahead = goes_by && job.paper_row;
+  for (const LogIndex* index : {&indices.input, indices.reference ? &*indices.reference : nullptr})
+    if (index != nullptr && index->corruption) result.notes.push_back(*index->corruption);
+  return result;
+}
+
+}  // namespace
+
+LogResult evaluate_log(const EvaluationJob& job, const std::function<void(double)>& progress) {
+  LogIndices indices = index_logs(job);
+  LogResult result = begun(job, indices);
+  const bool by_labels_alone = !indices.reference;
+  const bool looks_ahead = indices.ego_goes_by && job.paper_row;
+  Walk walk(job, indices, result);
+  indices = {};  // of an hour some megabytes
   LogAhead log({job.input, job.accept_truncated}, looks_ahead ? span_ahead_s(job.paper.config) : 0);
   for (;;) {
     while (!log.is_full() && log.read_on() != nullptr) {

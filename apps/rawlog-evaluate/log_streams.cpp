@@ -2,8 +2,14 @@
 // Copyright (c) 2026, the lidar_upsampling authors
 #include "log_streams.h"
 
+#include <mrpt/rtti/CObject.h>
+#include <tbb/parallel_invoke.h>
+
 #include <algorithm>
 #include <stdexcept>
+
+#include "lidar_upsampling/front_end/pose_input.h"
+#include "rawlog-densify/ego_ahead.h"
 
 namespace lidar_upsampling {
 
@@ -19,6 +25,25 @@ bool is_virtual(const std::string& label) {
 }
 
 }  // namespace
+
+LogIndices index_logs(const EvaluationJob& job) {
+  LogIndices indices;
+  LogIndex& input = indices.input;
+  mrpt::rtti::registerAllPendingClasses();  // not by two threads at a time
+  tbb::parallel_invoke(
+      [&] {
+        const LogFile log{job.input, job.accept_truncated};
+        input = index_streams(log);
+        indices.ego_goes_by = !job.paper_row || ego_goes_by(job.paper.config, input);
+        if (!indices.ego_goes_by) input = index_log(log);
+      },
+      [&] {
+        if (!job.reference.empty())
+          indices.reference = index_streams({job.reference, job.accept_truncated});
+      });
+  take_poses_from_file(job.paper.config, job.paper.rig, input);
+  return indices;
+}
 
 std::string find_label(const LogIndex& input, const std::string& wanted) {
   for (const StreamInfo* stream : input.of_kind(StreamKind::lidar)) {

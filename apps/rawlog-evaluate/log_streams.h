@@ -2,9 +2,11 @@
 // Copyright (c) 2026, the lidar_upsampling authors
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "evaluation.h"
 #include "lidar_upsampling/io/log_index.h"
 #include "lidar_upsampling/types.h"
 
@@ -12,6 +14,17 @@ namespace lidar_upsampling {
 
 /// What rawlog-densify appends to the label of the LiDAR.
 extern const char* const kVirtualEnding;
+
+/// What is known of the logs to compare before one of them goes by.
+struct LogIndices {
+  LogIndex input;
+  std::optional<LogIndex> reference;  ///< none: by labels alone
+  /// Whether row `paper` takes the vehicle's motion while the log goes by; else it is in `input`.
+  bool ego_goes_by = true;
+};
+
+/// @brief Reads both logs once. @throw std::runtime_error, CorruptRawlog as index_log()
+[[nodiscard]] LogIndices index_logs(const EvaluationJob& job);
 
 /// @brief The LiDAR whose virtual scans the log holds.
 /// @throw std::runtime_error it holds none.

@@ -73,8 +73,12 @@ def play(build, log, work):
             build.resolve() / "mrpt_plugin/plugin/mrpt_lidar_upsampling.so", file]
 
 
+def densified(log):
+    return log.with_name(f"{log.stem}_dense.rawlog")
+
+
 def tools_of(build, log, work):
-    tools, dense = build / "bin", work / f"{log.stem}_dense.rawlog"
+    tools, dense = build / "bin", densified(log)
     densify = [tools / "rawlog-densify", "--overwrite", "-i", log, "-o"]
     evaluate = [tools / "rawlog-evaluate", "--reference", log, "-i", dense, "--no-chamfer"]
     return {
@@ -116,6 +120,9 @@ def main():
         print(f"{'':16}{'1 min':>8}{f'{options.minutes:g} min':>10}{'more':>8}{'time, s':>10}", flush=True)
         short, long = (tools_of(options.build, log, work) for log in logs.values())
         for name in options.only.split(",") if options.only else short:
+            for tools, log in zip((short, long), logs.values()):
+                if name.startswith("evaluate") and not densified(log).exists():
+                    run(tools["densify"])
             _, first_mb = run(short[name])
             time_s, mb = run(long[name])
             print(f"{name:16}{first_mb:5.0f} MB{mb:7.0f} MB{100 * (mb / first_mb - 1):6.0f} %{time_s:10.0f}", flush=True)

@@ -11,8 +11,9 @@ namespace {
 TEST(Film, has_a_frame_per_scan_at_a_third_of_their_rate) {
   const TestFolder folder;
   simulate(folder);
-  densify(folder, "--film " + folder / "film.avi");
-  cv::VideoCapture film(folder / "film.avi");
+  std::filesystem::create_directory(folder / "films");  // not the log's, which is tidied up before
+  densify(folder, "--film " + folder / "films/film.avi");
+  cv::VideoCapture film(folder / "films/film.avi");
   ASSERT_TRUE(film.isOpened());
   cv::Mat frame;
   int frames = 0;
