@@ -10,8 +10,11 @@
 #include <fstream>
 #include <limits>
 
+#include "lidar_upsampling/compat/mrpt.h"
 #include "lidar_upsampling/compat/point_fields.h"
 #include "lidar_upsampling/io/carriers.h"
+#include "lidar_upsampling/io/packer.h"
+#include "lidar_upsampling/io/unpacker.h"
 #include "test_folder.h"
 
 namespace lidar_upsampling {
@@ -90,9 +93,7 @@ TEST(ForeignScans, a_depth_camera_is_a_lidar_too) {
   }
 }
 
-TEST(ForeignScans, external_points_are_loaded_and_unloaded) {
-  const TestFolder folder;
-  mrpt::io::setLazyLoadPathBase(folder.path().string());
+CObservation3DRangeScan two_points() {
   CObservation3DRangeScan depth;
   depth.hasPoints3D = true;
   depth.resizePoints3DVectors(2);
@@ -101,6 +102,26 @@ TEST(ForeignScans, external_points_are_loaded_and_unloaded) {
   depth.points3D_z = {3.F, 6.F};
   depth.points3D_idxs_x.assign(2, 0);
   depth.points3D_idxs_y.assign(2, 0);
+  return depth;
+}
+
+/// A file, packed or not.
+void pack_by_zstd(const std::string& path) {
+  std::vector<std::uint8_t> bytes(1U << 16U);
+  bytes.resize(Unpacker(path).unpack(bytes));
+  const auto packer = make_packer({Compression::Format::zstd, 3});
+  std::vector<std::uint8_t> packed = packer->pack(bytes);
+  const std::vector<std::uint8_t>& end = packer->finish();
+  packed.insert(packed.end(), end.begin(), end.end());
+  std::ofstream(path, std::ios::binary)
+      .write(reinterpret_cast<const char*>(packed.data()),
+             static_cast<std::streamsize>(packed.size()));
+}
+
+TEST(ForeignScans, external_points_are_loaded_and_unloaded) {
+  const TestFolder folder;
+  mrpt::io::setLazyLoadPathBase(folder.path().string());
+  CObservation3DRangeScan depth = two_points();
   depth.points3D_convertToExternalStorage("points.bin", folder.path().string());
   ASSERT_TRUE(depth.points3D_x.empty());
   const LidarScan scan = scan_from_observation(depth).value();
@@ -139,6 +160,23 @@ TEST(ForeignScans, a_missing_external_file_is_named) {
     const std::string text = error.what();
     EXPECT_NE(text.find("none.bin"), std::string::npos) << text;
     EXPECT_NE(text.find("LIDAR"), std::string::npos) << text;
+  }
+}
+
+// MRPT from 2.15.7 on packs external files as it packs logs.
+TEST(ForeignScans, external_points_packed_by_zstd_are_read_or_told_to_be) {
+  const TestFolder folder;
+  mrpt::io::setLazyLoadPathBase(folder.path().string());
+  CObservation3DRangeScan depth = two_points();
+  depth.points3D_convertToExternalStorage("points.bin", folder.path().string());
+  pack_by_zstd(folder / "points.bin");
+  try {
+    EXPECT_EQ(scan_from_observation(depth).value().points.back(), Eigen::Vector3f(4, 5, 6));
+    EXPECT_TRUE(compat::kReadsZstd);
+  } catch (const std::runtime_error& error) {
+    EXPECT_FALSE(compat::kReadsZstd);
+    const std::string text = error.what();
+    EXPECT_NE(text.find("points.bin is packed by zstd"), std::string::npos) << text;
   }
 }
 

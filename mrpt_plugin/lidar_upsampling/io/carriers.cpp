@@ -52,12 +52,19 @@ std::uint64_t unpacked_size_of_all(const std::vector<std::string>& files) {
       [](std::uint64_t sum, const std::string& file) { return sum + unpacked_size_of(file); });
 }
 
+// Some classes load nothing from a missing file, without a word, and anything from a packed one.
+void check_readable(const std::string& file) {
+  if (!std::filesystem::exists(file)) throw std::runtime_error("there is no file " + file);
+  if (!compat::kReadsZstd && Unpacker(file).is_zstd())
+    throw std::runtime_error("its file " + file +
+                             " is packed by zstd, as MRPT does from 2.15.7 on, and which this one "
+                             "cannot read; put in its place what zstd -dc makes of it");
+}
+
 void read_points(const mrpt::obs::CObservation& observation, LidarScan& scan) {
   const Silence silence;
-  // Some classes load nothing from a missing file, without a word.
   const std::vector<std::string> files = external_files(observation);
-  for (const std::string& file : files)
-    if (!std::filesystem::exists(file)) throw std::runtime_error("there is no file " + file);
+  for (const std::string& file : files) check_readable(file);
   // Not without need: unload() of later MRPTs erases a Velodyne's embedded points.
   if (!files.empty()) {
     const ReadingGuard guard([&] { return unpacked_size_of_all(files); });

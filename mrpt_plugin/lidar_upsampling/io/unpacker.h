@@ -45,6 +45,7 @@ class Unpacker {
   /// Why the end is no clean one.
   [[nodiscard]] const std::optional<std::string>& defect() const { return defect_; }
   [[nodiscard]] bool is_packed() const { return kind_ != Kind::plain; }
+  [[nodiscard]] bool is_zstd() const { return kind_ == Kind::zstd; }
   [[nodiscard]] std::uint64_t file_size() const { return file_size_; }
   /// Bytes of the file that have been used.
   [[nodiscard]] std::uint64_t file_position() const;
