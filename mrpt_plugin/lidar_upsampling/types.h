@@ -7,6 +7,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <opencv2/core/mat.hpp>
@@ -46,14 +47,24 @@ inline constexpr Compression Compression::small{Format::gzip, 6};
 /// A rigid motion; always named T_target_source.
 using Pose = Eigen::Isometry3d;
 
+/// A count of ticks that a damaged stamp may be beyond: 30,000 years.
+constexpr double kMostTicks = 9e18;
+
 /// Seconds from `from` to `to`, negative if `to` is the earlier one.
 inline double seconds_between(Stamp from, Stamp to) {
-  return 1e-7 * static_cast<double>((to - from).count());
+  const double apart = static_cast<double>(to.time_since_epoch().count()) -
+                       static_cast<double>(from.time_since_epoch().count());
+  return 1e-7 * (std::abs(apart) < kMostTicks ? static_cast<double>((to - from).count()) : apart);
 }
 
-/// The instant `dt` seconds after `stamp`, to the nearest tick.
+/// The instant `dt` seconds after `stamp`, to the nearest tick; the first or the last one, if it
+/// lies beyond these.
 inline Stamp shifted(Stamp stamp, double dt) {
-  return stamp + mrpt::Clock::duration(static_cast<std::int64_t>(dt * 1e7 + (dt < 0 ? -0.5 : 0.5)));
+  const double ticks = dt * 1e7 + (dt < 0 ? -0.5 : 0.5);
+  const double sum = static_cast<double>(stamp.time_since_epoch().count()) + ticks;
+  if (std::abs(ticks) > kMostTicks || std::abs(sum) > kMostTicks)
+    return ticks < 0 ? Stamp::min() : Stamp::max();
+  return stamp + mrpt::Clock::duration(static_cast<std::int64_t>(ticks));
 }
 
 /// @brief A stamp as text: MRPT ticks (an integer), or UNIX seconds with decimals, read without

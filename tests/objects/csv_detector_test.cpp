@@ -54,6 +54,17 @@ TEST(ParseStamp, what_is_neither_ticks_nor_seconds_is_refused) {
   }
 }
 
+TEST(Stamps, lie_apart_and_are_shifted_to_the_tick_and_at_the_ends_of_time_still) {
+  const Stamp now = parse_stamp("1317046450.1234567");
+  EXPECT_EQ(seconds_between(now, shifted(now, -0.0000003)), -3e-7);
+  EXPECT_EQ(seconds_between(Stamp::min(), now), -seconds_between(now, Stamp::min()));
+  EXPECT_NEAR(seconds_between(Stamp::min(), Stamp::max()), 1.8447e12, 1e8);
+  EXPECT_NEAR(seconds_between(Stamp::max(), Stamp::min()), -1.8447e12, 1e8);
+  EXPECT_EQ(shifted(Stamp::max(), 1), Stamp::max());
+  EXPECT_EQ(shifted(Stamp::min(), -1), Stamp::min());
+  EXPECT_EQ(shifted(now, 1e30), Stamp::max());
+}
+
 TEST(CsvDetector, gives_the_boxes_of_the_label_at_the_nearest_stamp) {
   const auto made = from(
       "label,stamp,class,score,left,top,right,bottom,track\r\n"
