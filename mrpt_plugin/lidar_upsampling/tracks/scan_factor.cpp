@@ -11,6 +11,7 @@
 
 #include "lidar_upsampling/decompositions.h"
 #include "lidar_upsampling/registration/surface.h"
+#include "lidar_upsampling/tracks/faces.h"
 #include "lidar_upsampling/tracks/free_space.h"
 #include "lidar_upsampling/tracks/log_odds.h"
 #include "lidar_upsampling/tracks/registered_step.h"
@@ -18,22 +19,12 @@
 namespace lidar_upsampling {
 namespace {
 
-/// Normals at some of the points, evenly taken: a share of a surface needs no more.
-std::vector<Eigen::Vector3f> some_normals(const Surface& surface) {
-  constexpr std::size_t kMost = 100;  // the share's deviation is 5 % at worst
-  const std::size_t size = surface.points().size(), count = std::min(size, kMost);
-  std::vector<Eigen::Vector3f> normals;
-  for (std::size_t i = 0; i < count; ++i)
-    normals.push_back(surface.normal(static_cast<int>(i * size / count)));
-  return normals;
-}
-
 /// An object's sights in two scans.
 struct TwoSights {
   ObjectScans scans;
   double dt;  ///< s
   Eigen::Matrix2d axes_before, axes_now;
-  std::vector<Eigen::Vector3f> normals_now;
+  Faces faces_now;
 };
 
 TwoSights two_sights(const ObjectTrack& track, const Surface& surface, const TrackedScan& scan,
@@ -42,7 +33,7 @@ TwoSights two_sights(const ObjectTrack& track, const Surface& surface, const Tra
                    seconds_between(track.stamp, expected.stamp),
                    level_axes(track.T_rest_lidar.linear()),
                    level_axes(scan.T_rest_lidar.linear()),
-                   some_normals(surface)};
+                   Faces(surface)};
   // Over ground, about the centroid, in the axes of the lidar frame then.
   Twist motion = Twist::Zero();
   motion[2] = expected.mean[2];
@@ -73,26 +64,6 @@ PlanarStep centroid_step(const ObjectTrack& track, const ScanObject& object,
   return step;
 }
 
-constexpr float kAcross = 0.5F;  // a normal within 60 degrees
-
-/// The share of its surface that lies across a direction.
-double share_across(const std::vector<Eigen::Vector3f>& normals, const Eigen::Vector2d& d) {
-  const auto lies_across = [&](const Eigen::Vector3f& normal) {
-    return std::abs(normal.head<2>().dot(d.cast<float>())) > kAcross;
-  };
-  return std::count_if(normals.begin(), normals.end(), lies_across) /
-         static_cast<double>(normals.size());
-}
-
-/// The share that lies along it. Of what has no normal, neither is known.
-double share_along(const std::vector<Eigen::Vector3f>& normals, const Eigen::Vector2d& d) {
-  const auto lies_along = [&](const Eigen::Vector3f& normal) {
-    return !normal.isZero() && std::abs(normal.head<2>().dot(d.cast<float>())) <= kAcross;
-  };
-  return std::count_if(normals.begin(), normals.end(), lies_along) /
-         static_cast<double>(normals.size());
-}
-
 /// Whether what is seen of the object tells a step: by a face across it, or an end that both scans
 /// show. Else its ends are the edges of what hides the rest of it, and their steps are not its own.
 bool tells_step(const TwoSights& sights, const Eigen::Vector2d& step, const TrackedScan& scan) {
@@ -105,7 +76,7 @@ bool tells_step(const TwoSights& sights, const Eigen::Vector2d& step, const Trac
   const Eigen::Vector2d d_now = sights.axes_now.transpose() * d;
   return (ends_in_sight(before, d_before) && ends_in_sight(now, d_now)) ||
          (ends_in_sight(before, -d_before) && ends_in_sight(now, -d_now)) ||
-         share_across(sights.normals_now, d_now) > kFace;
+         sights.faces_now.share_across(d_now) > kFace;
 }
 
 /// Where the object ends on one side, m along a direction at rest; none if something hides its end.
@@ -194,16 +165,16 @@ PlanarStep measured_step(const ObjectTrack& track, const ScanObject& object,
 }
 
 /// Density of a step that keeps to the sensor, if the beams meet surfaces along it only.
-/// @param normals of the object now.
-double density_of_locked(const ObjectTrack& track, const std::vector<Eigen::Vector3f>& normals,
-                         const PlanarStep& step, const Pose& T_rest_lidar) {
+/// @param faces of the object now.
+double density_of_locked(const ObjectTrack& track, const Faces& faces, const PlanarStep& step,
+                         const Pose& T_rest_lidar) {
   const Eigen::Vector3d with_us =
       T_rest_lidar * (track.T_rest_lidar.inverse() * track.centroid_rest) - track.centroid_rest;
   const double density = gaussian_density(step.mean.head<2>() - with_us.head<2>(),
                                           step.covariance.topLeftCorner<2, 2>());
   const Eigen::Vector2d ahead = level_axes(T_rest_lidar.linear()).transpose() * with_us.head<2>();
   if (ahead.norm() < 1e-3) return density;
-  return density * share_along(normals, ahead.normalized());
+  return density * (1 - faces.share_across(ahead.normalized()));
 }
 
 /// Parked or moving, by the step, and on which course.
@@ -248,7 +219,7 @@ ScanLesson learn_from_scans(const ObjectTrack& track, const ScanObject& object,
   if (!options.scan_factor) return lesson;
   const TwoSights sights = two_sights(track, surface, scan, lesson.state, options);
   const PlanarStep step = measured_step(track, object, sights, scan, options);
-  const double locked = density_of_locked(track, sights.normals_now, step, scan.T_rest_lidar);
+  const double locked = density_of_locked(track, sights.faces_now, step, scan.T_rest_lidar);
   if (judge_step(track, step, locked, options, lesson)) lesson.state = updated(lesson.state, step);
   return lesson;
 }
