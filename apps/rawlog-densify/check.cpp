@@ -120,7 +120,9 @@ class Checker {
     if (chosen_.count(scan->stamp) > 0) {
       scans_[scan->stamp] = {*scan, path_of(*scan), previous_};
       PlacedScan& placed = scans_[scan->stamp];
-      deskew(placed.scan, point_times(*scan, job_.config.sweep, turn_s), [&](double t) -> Pose {
+      const auto times = point_times(*scan, job_.config.sweep, turn_s);
+      result_.uses_point_times = !times.empty();
+      deskew(placed.scan, times, [&](double t) -> Pose {
         return placed.lidar_step ? placed.lidar_step(t).inverse() : Pose::Identity();
       });
       note(placed.scan, !scan->time_s.empty());

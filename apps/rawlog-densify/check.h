@@ -33,6 +33,7 @@ struct LogCheck {
   double mean_points = 0;     ///< per scan
   int num_rings = 0;          ///< 0: not told by the log
   bool has_point_times = false;
+  bool uses_point_times = false;  ///< to straighten the scan
   double time_offset_in_force_ms = 0;
   std::vector<CameraCheck> cameras;
   UnusedCounts unused;

@@ -71,7 +71,8 @@ std::string to_text(const LogCheck& check) {
        << direction_of(check.T_vehicle_lidar.linear().col(0)) << '\n'
        << "scan          " << fixed(check.mean_points, 0) << " points, "
        << (check.num_rings > 0 ? std::to_string(check.num_rings) : std::string("unknown"))
-       << " rings, times of points " << (check.has_point_times ? "known" : "not known") << '\n';
+       << " rings, times of points " << (check.has_point_times ? "known" : "not known")
+       << (check.has_point_times && !check.uses_point_times ? ", not used" : "") << '\n';
   for (const CameraCheck& camera : check.cameras) {
     const std::string& label = camera.camera.label;
     text << "camera        " << label << ' ' << place_of(camera.camera.T_vehicle_camera) << ", "

@@ -36,9 +36,9 @@ void list_main(Config& c, SettingList& v) {
   v.word("resample", c.resample, {"none", "beam"},
          "none: every virtual point is a real one, moved; beam: as the sensor would have measured "
          "it, on its own beams");
-  v.choice_of("scan_time", c.sweep.scan_time, {"none", "azimuth", "points"},
-              "instants of a scan's points; none: all at the stamp, or corrected already; azimuth: "
-              "as the scanner turns; points: the log tells");
+  v.choice_of("scan_time", c.sweep.scan_time, {"auto", "none", "azimuth", "points"},
+              "instants of a scan's points; auto: points, if the log tells them; none: all at the "
+              "stamp, or corrected already; azimuth: as the scanner turns; points: the log tells");
   v.choice_of("outside_view", c.compose.outside_view, {"ego", "drop"},
               "points that no camera sees: moved by the ego-motion, or left out");
   v.choice_of("objects", c.compose.objects, {"keep", "drop"},

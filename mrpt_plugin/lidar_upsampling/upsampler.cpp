@@ -115,8 +115,7 @@ VirtualScan LidarUpsampler::compose(ScanMotion motion) {
     if (of_next) other.emplace(BeamResampler::OtherView{*next->resampler, *of_next});
     scan = key_->resampler->resample(std::move(scan), other ? &*other : nullptr);
   }
-  if (config_.sweep.scan_time != ScanTime::none)
-    scan.scan.time_s.clear();  // all are of one instant
+  if (key_->is_sweep) scan.scan.time_s.clear();  // all are of one instant
   scan.T_rest_lidar_t = key_->T_rest_lidar * scan.T_lidar_t_lidar_k.inverse();
   scan.other_clusters = std::exchange(key_->other_clusters, {});
   scan.timing = std::exchange(timing_, {});

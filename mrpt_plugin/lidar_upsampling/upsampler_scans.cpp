@@ -19,11 +19,11 @@
 namespace lidar_upsampling {
 namespace {
 
-ScanObject make_object(const LidarScan& scan, std::vector<int> points, std::string class_name,
-                       double length, bool is_sweep) {
+ScanObject make_object(const PreparedScan& prepared, std::vector<int> points,
+                       std::string class_name, double length) {
   ScanObject object;
-  object.centroid = mean_of(points_at(scan, points));
-  if (is_sweep) object.time_s = mean_time(scan.time_s, points);
+  object.centroid = mean_of(points_at(prepared.scan, points));
+  if (prepared.is_sweep) object.time_s = mean_time(prepared.scan.time_s, points);
   object.points = std::move(points);
   object.class_name = std::move(class_name);
   object.length = length;
@@ -34,13 +34,12 @@ ScanObject make_object(const LidarScan& scan, std::vector<int> points, std::stri
 void sort_clusters(const Config& config, PreparedScan& prepared) {
   const LidarScan& scan = prepared.scan;
   const SceneSegments& segments = prepared.segments;
-  const bool is_sweep = config.sweep.scan_time != ScanTime::none;
   const auto why = why_no_road_users(scan, segments, config.detector.clusters);
   for (std::size_t i = 0; i < why.size(); ++i) {
     const ClusterExtent& extent = segments.extents[i];
     if (why[i] == nullptr)
       prepared.objects.push_back(
-          make_object(scan, segments.clusters[i], class_by_size(extent), extent.length, is_sweep));
+          make_object(prepared, segments.clusters[i], class_by_size(extent), extent.length));
     else
       prepared.other_clusters.push_back({extent.centroid.cast<double>(),
                                          {extent.length, extent.width, extent.height()},
@@ -78,19 +77,18 @@ std::vector<StageTime> look_at(const Config& config, PreparedScan& prepared) {
 
 // What lies in a detector's boxes on a picture that shows the scan.
 // @param T_camera_lidar ego-motion until the picture included.
-std::vector<ScanObject> objects_of_boxes(const LidarScan& scan, const SceneSegments& segments,
-                                         const CameraImage& image, const Pose& T_camera_lidar,
-                                         Detector& detector, const Config& config) {
+std::vector<ScanObject> objects_of_boxes(const PreparedScan& prepared, const CameraImage& image,
+                                         const Pose& T_camera_lidar, Detector& detector,
+                                         const Config& config) {
+  const LidarScan& scan = prepared.scan;
   const auto visible = visible_points(anchor_scan(scan, image.camera.model, T_camera_lidar));
-  const bool is_sweep = config.sweep.scan_time != ScanTime::none;
   std::vector<ScanObject> objects;
   for (const Detection& detection : detector.detect(image)) {
     auto points =
-        select_object_points(scan, visible, segments, detection.box, config.object_points);
+        select_object_points(scan, visible, prepared.segments, detection.box, config.object_points);
     if (!points) continue;
     const double length = cluster_extent(scan.points, {}, *points).length;
-    objects.push_back(
-        make_object(scan, std::move(*points), detection.class_name, length, is_sweep));
+    objects.push_back(make_object(prepared, std::move(*points), detection.class_name, length));
     objects.back().external_id = detection.external_track;
   }
   return objects;
@@ -123,6 +121,7 @@ std::unique_ptr<PreparedScan> LidarUpsampler::prepared(LidarScan scan, const Pre
   const auto as_measured = times.empty() ? std::vector<Eigen::Vector3f>{} : scan.points;
   straighten(scan, times, before != nullptr ? before->motion.rate : Twist(Twist::Zero()));
   result->scan = std::move(scan);
+  result->is_sweep = !times.empty();
   const auto join = [&] {
     if (before == nullptr) return;
     step_between_scans(*before, *result);
@@ -160,8 +159,7 @@ void LidarUpsampler::take_up(const Picture* anchor) {
     const Pose T_camera_lidar =
         T_camera_lidar_of(anchor->image.camera, key_->scan.T_vehicle_lidar) *
         ego_step(anchor->instant).T_to_from;
-    key_->objects = objects_of_boxes(key_->scan, key_->segments, anchor->image, T_camera_lidar,
-                                     *detector_, config_);
+    key_->objects = objects_of_boxes(*key_, anchor->image, T_camera_lidar, *detector_, config_);
     key_->other_clusters.clear();
   }
   track_of_ = take_up_scan(store_, key_->objects, key_->tracked(), config_.object_tracks);

@@ -60,9 +60,36 @@ TEST(Sweep, start_direction_and_reference_are_settings) {
   EXPECT_NEAR(times[3], -0.1 / 360, 1e-6);
 }
 
+SweepOptions not_at_all() {
+  SweepOptions options;
+  options.scan_time = ScanTime::none;
+  return options;
+}
+
 TEST(Sweep, nothing_is_known_without_a_period_nor_asked_with_none) {
   EXPECT_TRUE(point_times(scan_of({0, 90}), by_azimuth(), 0).empty());
-  EXPECT_TRUE(point_times(scan_of({0, 90}), SweepOptions(), kPeriod_s).empty());
+  LidarScan timed = scan_of({0, 90});
+  timed.time_s = {0.01F, 0.02F};
+  EXPECT_TRUE(point_times(timed, not_at_all(), kPeriod_s).empty());
+}
+
+TEST(Sweep, times_are_taken_by_default_where_the_log_tells_different_ones) {
+  LidarScan scan = scan_of({0, 90});
+  EXPECT_TRUE(point_times(scan, {}, kPeriod_s).empty());
+  scan.time_s = {0.01F, 0.01F};
+  EXPECT_TRUE(point_times(scan, {}, kPeriod_s).empty()) << "all at once";
+  scan.time_s = {0.01F, 0.06F};
+  EXPECT_EQ(point_times(scan, {}, kPeriod_s), scan.time_s);
+}
+
+TEST(Sweep, times_that_most_points_lack_are_not_taken_by_default) {
+  LidarScan scan = scan_of({0, 10, 20});
+  scan.time_s = {0.01F, -4e8F, -4e8F};
+  EXPECT_EQ(drop_points_without_time(scan, {}), 0U);
+  EXPECT_TRUE(point_times(scan, {}, kPeriod_s).empty());
+  scan.time_s = {0.01F, 0.02F, -4e8F};
+  EXPECT_EQ(drop_points_without_time(scan, {}), 1U);
+  EXPECT_EQ(point_times(scan, {}, kPeriod_s), (std::vector<float>{0.01F, 0.02F}));
 }
 
 TEST(Sweep, scans_too_far_apart_for_a_turn_tell_no_times) {
@@ -133,7 +160,7 @@ TEST(Sweep, points_without_a_time_near_the_stamp_are_left_out_with_all_their_fie
 TEST(Sweep, times_that_are_not_used_cost_no_points) {
   LidarScan scan = scan_of({0, 10});
   scan.time_s = {0.01F, -4e8F};
-  EXPECT_EQ(drop_points_without_time(scan, {}), 0U);
+  EXPECT_EQ(drop_points_without_time(scan, not_at_all()), 0U);
   EXPECT_EQ(drop_points_without_time(scan, by_azimuth()), 0U);
   EXPECT_EQ(scan.size(), 2U);
 }

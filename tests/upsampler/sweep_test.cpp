@@ -67,7 +67,7 @@ TEST(SweepingLidar, points_are_taken_from_their_own_instants) {
   StreetRun street(kSweep);
   const SweepErrors none = sweep_errors(street, ScanTime::none);
   const SweepErrors azimuth = sweep_errors(street, ScanTime::azimuth);
-  const SweepErrors points = sweep_errors(street, ScanTime::points);
+  const SweepErrors points = sweep_errors(street, ScanTime::as_told);
   EXPECT_GT(none.standing, 0.1);
   EXPECT_LT(azimuth.standing, 0.003);
   EXPECT_LT(points.standing, 0.003);
@@ -85,6 +85,7 @@ TEST(SweepingLidar, without_poses_the_rate_between_scans_straightens_them) {
 TEST(SweepingLidar, virtual_scans_are_of_one_instant) {
   StreetRun street(std::string(kSweep) + "[scenario]\nduration_s = 0.1\n");
   Config config = moving_points();
+  config.sweep.scan_time = ScanTime::none;
   LidarUpsampler as_it_is{config};
   const auto sheared = street.run(as_it_is);
   ASSERT_FALSE(sheared.empty());

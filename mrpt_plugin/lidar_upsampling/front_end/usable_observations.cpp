@@ -30,8 +30,12 @@ bool is_finite(const CameraModel& model) {
 }
 
 const std::pair<RigOverrides, SweepOptions>& as_it_is() {
-  static const std::pair<RigOverrides, SweepOptions> none;
-  return none;
+  static const std::pair<RigOverrides, SweepOptions> nothing = [] {
+    SweepOptions sweep;
+    sweep.scan_time = ScanTime::none;
+    return std::make_pair(RigOverrides(), sweep);
+  }();
+  return nothing;
 }
 
 std::string text_of(const cv::Size& size) {

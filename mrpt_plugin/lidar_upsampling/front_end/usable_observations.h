@@ -40,7 +40,7 @@ class UsableObservations {
       : rig_(rig), sweep_(sweep), tell_(std::move(tell)) {}
 
   /// @brief Its points, at the pose in force, if it has a stamp, a finite pose and points. With
-  /// ScanTime::points, without those that have no time of their own.
+  /// ScanTime::points or as_told, without those that have no time of their own.
   [[nodiscard]] std::optional<LidarScan> scan(const mrpt::obs::CObservation& observation);
 
   /// @brief Its picture, with the calibration in force, if it has a stamp, a picture of the size of

@@ -32,15 +32,27 @@ bool is_near(float time_s) {
   return std::abs(time_s) <= kFarthest_s;  // not if it is not finite
 }
 
+// Whether the log tells that a scan's points were measured at different instants.
+bool tells_instants(const LidarScan& scan) {
+  constexpr float kAtOnce_s = 1e-3F;  // 3 cm at 30 m/s
+  if (scan.points.empty() || scan.time_s.size() != scan.size()) return false;
+  if (!std::all_of(scan.time_s.begin(), scan.time_s.end(), is_near)) return false;
+  const auto [first, last] = std::minmax_element(scan.time_s.begin(), scan.time_s.end());
+  return *last - *first > kAtOnce_s;
+}
+
 }  // namespace
 
 std::size_t drop_points_without_time(LidarScan& scan, const SweepOptions& options) {
-  if (options.scan_time != ScanTime::points || scan.time_s.size() != scan.size()) return 0;
+  const bool is_asked =
+      options.scan_time == ScanTime::points || options.scan_time == ScanTime::as_told;
+  if (!is_asked || scan.time_s.size() != scan.size()) return 0;
   std::vector<int> timed;
   for (std::size_t i = 0; i < scan.size(); ++i)
     if (is_near(scan.time_s[i])) timed.push_back(static_cast<int>(i));
   const std::size_t num_dropped = scan.size() - timed.size();
   if (num_dropped == 0) return 0;
+  if (options.scan_time == ScanTime::as_told && timed.size() < num_dropped) return 0;
   const LidarScan all = std::move(scan);
   scan = {};
   scan.stamp = all.stamp;
@@ -54,6 +66,8 @@ std::size_t drop_points_without_time(LidarScan& scan, const SweepOptions& option
 std::vector<float> point_times(const LidarScan& scan, const SweepOptions& options,
                                double period_s) {
   if (options.scan_time == ScanTime::none) return {};
+  if (options.scan_time == ScanTime::as_told)
+    return tells_instants(scan) ? scan.time_s : std::vector<float>{};
   if (options.scan_time == ScanTime::azimuth)
     return period_s > 0 && is_near(static_cast<float>(period_s))
                ? times_by_azimuth(scan, options, period_s)
