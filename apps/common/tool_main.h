@@ -12,11 +12,13 @@
 #include <exception>
 #include <functional>
 #include <iostream>
+#include <memory>
 #include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "common/help_text.h"
 #include "lidar_upsampling/io/temporary_names.h"
 #include "lidar_upsampling/nearest_word.h"
 #include "lidar_upsampling/text.h"
@@ -53,6 +55,7 @@ inline void refuse_numbers_that_are_none(CLI::App& app) {
 /// @return the exit status: 0 done, 1 failed, 2 wrong usage.
 inline int run_tool(CLI::App& app, int argc, char** argv, const std::function<void()>& work) {
   refuse_numbers_that_are_none(app);
+  app.formatter(std::make_shared<HelpText>());
   app.set_version_flag("--version", app.get_name() + " " + LIDAR_UPSAMPLING_VERSION);
   try {
     app.parse(argc, argv);
