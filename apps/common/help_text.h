@@ -23,7 +23,7 @@ class HelpText : public CLI::Formatter {
     text += "\nOptions:\n" + lines_of_named(*app);
     for (const CLI::App* group : app->get_subcommands({}))
       text += "\nExactly one of:\n" + lines_of_named(*group);  // no tool has other groups
-    return text + '\n' + make_footer(app);
+    return text + '\n' + app->get_footer() + '\n';
   }
 
  private:

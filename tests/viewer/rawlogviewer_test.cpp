@@ -5,6 +5,7 @@
 #include <mrpt/obs/CSensoryFrame.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <vector>
 
@@ -114,9 +115,14 @@ TEST_F(RawLogViewer, a_scan_without_points_is_a_blank_view) {
   LidarScan nothing;
   nothing.label = "LIDAR_VIRTUAL";
   nothing.stamp = Stamp(mrpt::Clock::duration(132000000000000000LL));
+  LidarScan next = nothing;  // the viewer of MRPT 2.15 asserts on logs of less than a kilobyte
+  next.stamp = shifted(nothing.stamp, 0.1);
+  for (int i = 0; i < 20000; ++i)
+    next.points.emplace_back(20 * std::sin(1.7F * i), 20 * std::cos(1.3F * i), std::sin(0.1F * i));
   for (const std::string name : {"3drangescan", "pointcloud"}) {
     RawlogWriter writer(folder_ / name + ".rawlog", false);
     writer.write(*observation_from_scan(nothing, carrier_from_string(name)));
+    writer.write(*observation_from_scan(next, carrier_from_string(name)));
     writer.commit();
     const Screen screen(folder_ / name, "RawLogViewer " + folder_ / name + ".rawlog");
     screen.act("row", "0");
