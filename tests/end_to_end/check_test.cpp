@@ -72,6 +72,8 @@ TEST(Check, a_sweep_with_the_times_of_its_points_is_noticed) {
   simulate(folder, "[lidar]\nsweep = true\n[log]\ncarrier = velodyne\n");
   const ToolResult result = run(check_command(folder));
   EXPECT_TRUE(contains(result.text, "times of points known")) << result.text;
+  expect_done(
+      densify_command(folder / "in.rawlog", folder / "out.rawlog", "--set scan_time=points"));
   const ToolResult as_one = run(check_command(folder, "--set scan_time=none"));
   EXPECT_TRUE(contains(as_one.text, "times of points known, not used")) << as_one.text;
 }
