@@ -18,6 +18,7 @@
 #include <utility>
 #include <vector>
 
+#include "common/heap.h"
 #include "common/help_text.h"
 #include "lidar_upsampling/io/temporary_names.h"
 #include "lidar_upsampling/nearest_word.h"
@@ -65,6 +66,7 @@ inline int run_tool(CLI::App& app, int argc, char** argv, const std::function<vo
     return kWrongUsage;
   }
   remove_temporaries_on_signals();
+  keep_heap_in_large_pages();
   try {
     work();
     if (!std::cout.flush()) throw std::runtime_error("cannot write to the standard output");
