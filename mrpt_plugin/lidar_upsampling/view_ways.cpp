@@ -5,6 +5,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <iterator>
 #include <map>
 #include <optional>
 
@@ -95,6 +96,14 @@ Start part_of(const Start& start, const std::vector<std::size_t>& asked) {
   return part;
 }
 
+/// @param all, some of them: rising.
+std::vector<std::size_t> without(const std::vector<std::size_t>& all,
+                                 const std::vector<std::size_t>& some) {
+  std::vector<std::size_t> rest;
+  std::set_difference(all.begin(), all.end(), some.begin(), some.end(), std::back_inserter(rest));
+  return rest;
+}
+
 /// Lost objects, where as a whole they are found.
 Start searched(const CameraView& view, const Picture& picture, const Pose& T_camera_t_lidar_k,
                const std::vector<Ways>& ways, const std::vector<std::size_t>& lost,
@@ -138,14 +147,19 @@ void follow_ways(CameraView& view, const Picture& picture, const Pose& T_camera_
     keep_better(points, start.which, follow_points(patches, options), options);
   };
   forget(points, starts.front().which);
+  Start whole;
   if (options.align_first) {
     for (const Start& start : starts) follow(start, align_points);
     const std::vector<std::size_t> lost = points_elsewhere(points.owner, points.found);
-    follow(searched(view, picture, T_camera_t_lidar_k, ways, lost, options), align_points);
+    whole = searched(view, picture, T_camera_t_lidar_k, ways, lost, options);
+    follow(whole, align_points);
   }
   const std::vector<std::size_t> lost = points_elsewhere(points.owner, points.found);
   forget(points, lost);
-  for (const Start& start : starts) follow(part_of(start, lost), search_points);
+  whole = part_of(whole, lost);
+  follow(whole, search_points);
+  const std::vector<std::size_t> nowhere = without(lost, whole.which);
+  for (const Start& start : starts) follow(part_of(start, nowhere), search_points);
 }
 
 }  // namespace lidar_upsampling

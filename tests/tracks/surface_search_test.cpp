@@ -88,11 +88,11 @@ class Board : public ::testing::Test {
   Pose T_camera_lidar_ = Pose::Identity();
 };
 
-TEST_F(Board, that_has_gone_aside_by_its_width_and_come_nearer_is_found) {
+TEST_F(Board, that_has_gone_aside_by_its_width_and_come_nearer_is_found_as_near_as_patches_align) {
   const Pose truth = moved(-1.2, 1.9, 0.1);
   const auto found = search(truth, 2);
   ASSERT_TRUE(found);
-  EXPECT_LT(error_px(*found, truth), 3);
+  EXPECT_LT(error_px(*found, truth), 2);
 }
 
 TEST_F(Board, that_stands_is_found_where_it_stands) {
@@ -111,11 +111,8 @@ TEST_F(Board, that_may_be_anywhere_is_looked_for_at_no_more_places_than_there_is
   EXPECT_TRUE(found->matrix().allFinite());
 }
 
-TEST_F(Board, that_went_farther_than_expected_is_not_found_there) {
-  const Pose truth = moved(0, 3, 0);
-  const auto found = search(truth, 0.8);
-  ASSERT_TRUE(found);
-  EXPECT_GT(error_px(*found, truth), 30);
+TEST_F(Board, that_went_farther_than_expected_is_found_nowhere) {
+  EXPECT_FALSE(search(moved(0, 3, 0), 0.8));
 }
 
 }  // namespace

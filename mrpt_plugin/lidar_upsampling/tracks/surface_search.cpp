@@ -22,7 +22,8 @@ constexpr double kMostSigmas = 2;  // what is farther is not tried
 constexpr int kMostSteps = 40;     // along an axis; wider grids begin on smaller pictures,
                                    // and on the smallest end there
 constexpr std::size_t kMostPoints = 40;
-constexpr int kRounds = 2;  // on each level
+constexpr int kRounds = 2;           // on each level, by steps and by half steps
+constexpr double kMostUnlike = 0.6;  // of its contrast, squared: little is as like by chance
 
 using SmallPatch = std::array<float, kSearchSide * kSearchSide>;
 
@@ -56,6 +57,11 @@ class SurfaceOnLevel {
       patches_.push_back(patch);
       contrast_.push_back(sq_distance(patch, {}));
     }
+  }
+
+  /// How unlike it is to what has none.
+  [[nodiscard]] double contrast() const {
+    return std::accumulate(contrast_.begin(), contrast_.end(), 0.);
   }
 
   /// How unlike it looks after a motion; what is out of view looks like nothing at all.
@@ -164,19 +170,22 @@ std::optional<Pose> search_surface(const LostSurface& lost, const PlanarStep& ex
   while (level < options.pyramid_levels && 2 * aside_px > kStep_px * kMostSteps * (1 << level))
     ++level;
   const Eigen::Matrix3d information = expected.covariance.inverse();
-  const auto step_px = [](int at) { return kStep_px * (1 << at); };
   Eigen::Vector3d astray = Eigen::Vector3d::Zero();
   for (int now = level; now >= 0; --now) {
     const SurfaceOnLevel surface(lost, now);
-    const auto look = [&](const std::array<int, 3>& count) {
-      astray =
-          likest(surface, {pixels * step_px(now), count}, astray, middle, expected, information);
+    const auto look = [&](const std::array<int, 3>& count, double step) {
+      astray = likest(surface, {pixels * step, count}, astray, middle, expected, information);
     };
+    const double step = kStep_px * (1 << now);
     if (now == level)
-      look({steps_within(aside_px, step_px(now)), steps_within(reach_px(1), step_px(now)), 0});
-    for (int round = 0; round < kRounds; ++round) look({1, 1, 1});
+      look({steps_within(aside_px, step), steps_within(reach_px(1), step), 0}, step);
+    for (const double part : {1., 0.5})
+      for (int round = 0; round < kRounds; ++round) look({1, 1, 1}, part * step);
   }
-  return motion_of(expected.mean + astray, middle);
+  const Pose found = motion_of(expected.mean + astray, middle);
+  const SurfaceOnLevel surface(lost, 0);
+  if (surface.unlikeness(found) > kMostUnlike * surface.contrast()) return {};
+  return found;
 }
 
 }  // namespace lidar_upsampling

@@ -26,8 +26,8 @@ struct LostSurface {
 /// over what is expected, on small pictures first. A single point's neighbourhood looks alike at
 /// many places, a whole surface hardly.
 /// @param expected of their middle and heading, source frame.
-/// @return T_mov, source frame; none where what is expected is narrower than the patches that are
-/// searched for one by one.
+/// @return T_mov, source frame, good to some pixels; none where what is expected is narrower than
+/// the patches that are searched for one by one, or where nothing looks like it.
 [[nodiscard]] std::optional<Pose> search_surface(const LostSurface& lost,
                                                  const PlanarStep& expected,
                                                  const KltOptions& options);
