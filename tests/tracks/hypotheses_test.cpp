@@ -216,13 +216,21 @@ TEST(Hypotheses, few_points_do_not_move_what_scans_have_shown_to_stand) {
   ObjectTrack track = new_track();
   const Twist wrong_way = to_the_side(0.5);
   ImageFactor image = picture_of(wrong_way);
-  image.observations.resize(8);
+  image.observations.resize(12);
   const auto odds = [&] {
-    return estimate_motion(track, image, question_after(0.1, 8), {wrong_way}, {});
+    return estimate_motion(track, image, question_after(0.1, 12), {wrong_way}, {});
   };
   EXPECT_TRUE(odds().moves);
   track.log_odds = -4;
   EXPECT_FALSE(odds().moves);
+}
+
+TEST(Hypotheses,
+     points_so_few_that_a_motion_can_be_made_to_agree_with_them_do_not_move_what_is_new) {
+  const Twist any_way = to_the_side(0.5);
+  ImageFactor image = picture_of(any_way);
+  image.observations.resize(8);
+  EXPECT_FALSE(estimate_motion(new_track(), image, question_after(0.1, 8), {any_way}, {}).moves);
 }
 
 TEST(Hypotheses, what_may_go_our_road_is_not_held_for_parked_where_the_picture_cannot_tell) {

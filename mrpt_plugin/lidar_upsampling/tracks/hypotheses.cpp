@@ -135,13 +135,26 @@ double log_sum(const std::vector<double>& logs) {
   return most + std::log(sum);
 }
 
-/// Log-odds that the points were found at wrong places: where they are looked for rightly, the most
-/// of them are found again and agree (a share as Beta(3, 1)), elsewhere few (as Beta(1, 3)).
-double log_odds_of_wrong(int num_agree, int num_followed, const TrackOptions& options) {
+/// How many observations agree with a hypothesis, and how many followed ones do not.
+struct Agreement {
+  double agree = 0, lost = 0;
+};
+
+/// Those of which the motion has been made agree anyway: half as many as there are parameters that
+/// they determine rather than what was expected (MacKay, Neural Computation 4, 1992).
+Agreement agreement(const MotionFit& fit, const MotionExpected& expected, int num_followed,
+                    const TrackOptions& options) {
   const double share = 1 / options.points.points_per_observation;
-  const double agree = share * num_agree, lost = share * std::max(0, num_followed - num_agree);
-  return log_odds_of(options.outlier_share) +
-         std::log((lost + 1) * (lost + 2) / ((agree + 1) * (agree + 2)));
+  const double num_fitted =
+      6 - inverse(expected.covariance).cwiseProduct(fit.covariance).sum();  // the product's trace
+  return {std::max(0., share * fit.num_inliers - num_fitted / 2),
+          share * std::max(0, num_followed - fit.num_inliers)};
+}
+
+/// Log-odds that the points were found at wrong places: where they are looked for rightly, the most
+/// of them are found again and agree (a share as Beta(2, 1)), elsewhere few (as Beta(1, 2)).
+double log_odds_of_wrong(const Agreement& most, const TrackOptions& options) {
+  return log_odds_of(options.outlier_share) + std::log((most.lost + 1) / (most.agree + 1));
 }
 
 /// Points at wrong places are anywhere, or on what stands behind a mover.
@@ -172,19 +185,21 @@ Heard hear(Stamp stamp, const ImageFactor& image, const MotionQuestion& question
   };
   Heard heard;
   heard.parked = fit(parked, {Twist::Zero()});
-  int num_agree = heard.parked.num_inliers;
+  Agreement most = agreement(heard.parked, parked, question.num_followed, options);
   for (const Way& way : ways) {
     std::vector<Twist> from = starts;
     from.push_back(way.expected.mean);
     heard.moving.push_back(fit(way.expected, from));
-    num_agree = std::max(num_agree, heard.moving.back().num_inliers);
+    const Agreement now =
+        agreement(heard.moving.back(), way.expected, question.num_followed, options);
+    if (now.agree > most.agree) most = now;
   }
   MotionExpected any = expected_motion(
       predicted(new_track_state(stamp, options.noise), question.instant, options.noise),
       question.R_rest_lidar_k, seconds_between(stamp, question.instant), options);
   any.covariance += parked.covariance;
-  weigh(ways, fit(any, {heard.moving.front().mean}).log_evidence,
-        log_odds_of_wrong(num_agree, question.num_followed, options), heard);
+  weigh(ways, fit(any, {heard.moving.front().mean}).log_evidence, log_odds_of_wrong(most, options),
+        heard);
   return heard;
 }
 
