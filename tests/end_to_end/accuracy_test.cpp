@@ -94,5 +94,20 @@ TEST(AccuracyByPeoplesLabels, of_a_labelled_drive_is_not_half_as_bad_again) {
   EXPECT_LT(figures["false_movers_per_image"], 0.5);
 }
 
+// Oncoming traffic, of which there is one scan and a picture: none of it is known to move.
+TEST(AccuracyByPeoplesLabels, of_what_is_seen_for_the_first_time_is_not_half_as_bad_again) {
+  const fs::path scene = data_folder() / "ddad_scene_01";
+  if (!fs::exists(scene)) GTEST_SKIP() << "no " << scene;
+  const TestFolder folder;
+  expect_done(std::string(DGP2RAWLOG) + " --scene " + scene.string() + " --output " +
+              folder / "full.rawlog" + " --truth-objects " + folder / "full_objects.csv");
+  expect_done(std::string(RAWLOG_DECIMATE) + " --label LIDAR --keep-every 2 --input " +
+              folder / "full.rawlog" + " --output " + folder / "in.rawlog");
+  auto figures = figures_by_labels(folder, "in.rawlog", "full_objects.csv", "default.ini");
+  EXPECT_EQ(figures["movers"], 12);
+  EXPECT_LT(figures["movers_mean_m"], 0.18);
+  EXPECT_LT(figures["movers_median_m"], 0.09);
+}
+
 }  // namespace
 }  // namespace lidar_upsampling
