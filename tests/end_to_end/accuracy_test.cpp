@@ -78,15 +78,22 @@ INSTANTIATE_TEST_SUITE_P(Scenarios, Accuracy,
                            return fs::path(bounds.param.scenario).stem().string();
                          });
 
+/// Of what an importer reads, with every second scan withheld.
+std::map<std::string, double> figures_of_import(const std::string& importer,
+                                                const std::string& config) {
+  const TestFolder folder;
+  expect_done(importer + " --output " + folder / "full.rawlog" + " --truth-objects " +
+              folder / "full_objects.csv");
+  expect_done(std::string(RAWLOG_DECIMATE) + " --label LIDAR --keep-every 2 --input " +
+              folder / "full.rawlog" + " --output " + folder / "in.rawlog");
+  return figures_by_labels(folder, "in.rawlog", "full_objects.csv", config);
+}
+
 TEST(AccuracyByPeoplesLabels, of_a_labelled_drive_is_not_half_as_bad_again) {
   const fs::path drive = data_folder() / "kitti_raw/2011_09_26/2011_09_26_drive_0005_sync";
   if (!fs::exists(drive / "label_02.txt")) GTEST_SKIP() << "no labels in " << drive;
-  const TestFolder folder;
-  expect_done(std::string(KITTI2RAWLOG) + " --drive " + drive.string() + " --last 14 --output " +
-              folder / "full.rawlog" + " --truth-objects " + folder / "full_objects.csv");
-  expect_done(std::string(RAWLOG_DECIMATE) + " --label LIDAR --keep-every 2 --input " +
-              folder / "full.rawlog" + " --output " + folder / "in.rawlog");
-  auto figures = figures_by_labels(folder, "in.rawlog", "full_objects.csv", "kitti.ini");
+  auto figures = figures_of_import(
+      std::string(KITTI2RAWLOG) + " --drive " + drive.string() + " --last 14", "kitti.ini");
   EXPECT_EQ(figures["images"], 7);
   EXPECT_GE(figures["movers"], 12);
   EXPECT_LT(figures["movers_mean_m"], 0.065);
@@ -98,12 +105,8 @@ TEST(AccuracyByPeoplesLabels, of_a_labelled_drive_is_not_half_as_bad_again) {
 TEST(AccuracyByPeoplesLabels, of_what_is_seen_for_the_first_time_is_not_half_as_bad_again) {
   const fs::path scene = data_folder() / "ddad_scene_01";
   if (!fs::exists(scene)) GTEST_SKIP() << "no " << scene;
-  const TestFolder folder;
-  expect_done(std::string(DGP2RAWLOG) + " --scene " + scene.string() + " --output " +
-              folder / "full.rawlog" + " --truth-objects " + folder / "full_objects.csv");
-  expect_done(std::string(RAWLOG_DECIMATE) + " --label LIDAR --keep-every 2 --input " +
-              folder / "full.rawlog" + " --output " + folder / "in.rawlog");
-  auto figures = figures_by_labels(folder, "in.rawlog", "full_objects.csv", "default.ini");
+  auto figures =
+      figures_of_import(std::string(DGP2RAWLOG) + " --scene " + scene.string(), "default.ini");
   EXPECT_EQ(figures["movers"], 12);
   EXPECT_LT(figures["movers_mean_m"], 0.18);
   EXPECT_LT(figures["movers_median_m"], 0.09);
