@@ -7,6 +7,7 @@
 
 #include "lidar_upsampling/decompositions.h"
 #include "lidar_upsampling/tracks/log_odds.h"
+#include "lidar_upsampling/tracks/picture_evidence.h"
 #include "lidar_upsampling/tracks/scan_factor.h"
 #include "lidar_upsampling/units.h"
 
@@ -78,13 +79,6 @@ TrackState learnt(const TrackState& state, const MotionExpected& expected,
   return updated(state, own, joined(own, step_of(expected), step_of(fit)));
 }
 
-/// One of the ways in which the object may move.
-struct Way {
-  double probability = 0;
-  TrackState state;         ///< at the instant, as the filter has it
-  MotionExpected expected;  ///< then, with scans to come
-};
-
 std::vector<Way> ways_of(const ObjectTrack& track, const MotionQuestion& question,
                          const Matrix6d& common, const TrackOptions& options) {
   const auto way = [&](double probability, const TrackState& state, const TrackState& expected) {
@@ -119,90 +113,6 @@ void mix(const std::vector<double>& weights, const std::vector<Gaussian>& parts,
   }
 }
 
-/// What a picture makes of the hypotheses.
-struct Heard {
-  MotionFit parked;
-  std::vector<MotionFit> moving;  ///< each way
-  std::vector<double> right;      ///< probability of each way and of a right picture, if it moves
-  std::vector<double> wrong;      ///< likewise, but the points were found at wrong places
-  double log_parked = 0, log_moving = 0;  ///< evidence
-};
-
-double log_sum(const std::vector<double>& logs) {
-  const double most = *std::max_element(logs.begin(), logs.end());
-  double sum = 0;
-  for (const double log : logs) sum += std::exp(log - most);
-  return most + std::log(sum);
-}
-
-/// How many observations agree with a hypothesis, and how many followed ones do not.
-struct Agreement {
-  double agree = 0, lost = 0;
-};
-
-/// Those of which the motion has been made agree anyway: half as many as there are parameters that
-/// they determine rather than what was expected (MacKay, Neural Computation 4, 1992).
-Agreement agreement(const MotionFit& fit, const MotionExpected& expected, int num_followed,
-                    const TrackOptions& options) {
-  const double share = 1 / options.points.points_per_observation;
-  const double num_fitted =
-      6 - inverse(expected.covariance).cwiseProduct(fit.covariance).sum();  // the product's trace
-  return {std::max(0., share * fit.num_inliers - num_fitted / 2),
-          share * std::max(0, num_followed - fit.num_inliers)};
-}
-
-/// Log-odds that the points were found at wrong places: where they are looked for rightly, the most
-/// of them are found again and agree (a share as Beta(2, 1)), elsewhere few (as Beta(1, 2)).
-double log_odds_of_wrong(const Agreement& most, const TrackOptions& options) {
-  return log_odds_of(options.outlier_share) + std::log((most.lost + 1) / (most.agree + 1));
-}
-
-/// Points at wrong places are anywhere, or on what stands behind a mover.
-/// @param of_any log-evidence of points of which nothing is expected.
-void weigh(const std::vector<Way>& ways, double of_any, double odds_of_wrong, Heard& heard) {
-  const double log_right = -std::log1p(std::exp(odds_of_wrong));
-  const double log_wrong = log_right + odds_of_wrong;
-  heard.log_parked = log_sum({heard.parked.log_evidence + log_right, of_any + log_wrong});
-  std::vector<double> logs;
-  for (std::size_t i = 0; i < ways.size(); ++i) {
-    const double of_way = std::log(ways[i].probability);
-    logs.push_back(of_way + heard.moving[i].log_evidence + log_right);
-    logs.push_back(of_way + of_any + log_wrong);
-  }
-  const double log_all = log_sum(logs);
-  heard.log_moving = log_sum({log_all, heard.parked.log_evidence + log_wrong});
-  for (std::size_t i = 0; i < ways.size(); ++i) {
-    heard.right.push_back(std::exp(logs[2 * i] - log_all));
-    heard.wrong.push_back(std::exp(logs[2 * i + 1] - log_all));
-  }
-}
-
-Heard hear(Stamp stamp, const ImageFactor& image, const MotionQuestion& question,
-           const std::vector<Way>& ways, const MotionExpected& parked,
-           const std::vector<Twist>& starts, const TrackOptions& options) {
-  const auto fit = [&](const MotionExpected& prior, const std::vector<Twist>& from) {
-    return fit_with_scatter(image, question.centroid, prior, from, options.points);
-  };
-  Heard heard;
-  heard.parked = fit(parked, {Twist::Zero()});
-  Agreement most = agreement(heard.parked, parked, question.num_followed, options);
-  for (const Way& way : ways) {
-    std::vector<Twist> from = starts;
-    from.push_back(way.expected.mean);
-    heard.moving.push_back(fit(way.expected, from));
-    const Agreement now =
-        agreement(heard.moving.back(), way.expected, question.num_followed, options);
-    if (now.agree > most.agree) most = now;
-  }
-  MotionExpected any = expected_motion(
-      predicted(new_track_state(stamp, options.noise), question.instant, options.noise),
-      question.R_rest_lidar_k, seconds_between(stamp, question.instant), options);
-  any.covariance += parked.covariance;
-  weigh(ways, fit(any, {heard.moving.front().mean}).log_evidence, log_odds_of_wrong(most, options),
-        heard);
-  return heard;
-}
-
 /// What the picture's own error leaves of a fit that holds it.
 MotionFit without(const Matrix6d& error, const MotionExpected& expected, MotionFit fit) {
   const Matrix6d K = Matrix6d::Identity() - error * inverse(expected.covariance);
@@ -212,31 +122,32 @@ MotionFit without(const Matrix6d& error, const MotionExpected& expected, MotionF
 }
 
 /// The mixture of all ways, each with a right and with a wrong picture.
-void learn(const Heard& heard, const std::vector<Way>& ways, const MotionExpected& parked,
-           const Matrix6d& of_picture, const MotionQuestion& question, MotionAnswer& answer) {
+void learn(const PictureEvidence& evidence, const std::vector<Way>& ways,
+           const MotionExpected& parked, const Matrix6d& of_picture, const MotionQuestion& question,
+           MotionAnswer& answer) {
   std::vector<MotionFit> told;
   std::vector<TrackState> states;
   std::vector<double> weights;
   double wrong = 0;
   for (std::size_t i = 0; i < ways.size(); ++i) {
-    weights.push_back(heard.right[i]);
-    told.push_back(without(of_picture, ways[i].expected, heard.moving[i]));
-    states.push_back(
-        learnt(ways[i].state, ways[i].expected, parked, heard.moving[i], question.R_rest_lidar_k));
-    weights.push_back(heard.wrong[i]);
+    weights.push_back(evidence.right[i]);
+    told.push_back(without(of_picture, ways[i].expected, evidence.moving[i]));
+    states.push_back(learnt(ways[i].state, ways[i].expected, parked, evidence.moving[i],
+                            question.R_rest_lidar_k));
+    weights.push_back(evidence.wrong[i]);
     told.push_back(told.back());
     told.back().mean = ways[i].expected.mean;
     told.back().covariance = ways[i].expected.covariance;
     states.push_back(ways[i].state);
-    wrong += heard.wrong[i];
+    wrong += evidence.wrong[i];
   }
   answer.is_seen = wrong < 0.5;
-  answer.parked = heard.parked;
-  answer.moving =
-      heard.moving[std::max_element(heard.right.begin(), heard.right.end()) - heard.right.begin()];
+  answer.parked = evidence.parked;
+  answer.moving = evidence.moving[std::max_element(evidence.right.begin(), evidence.right.end()) -
+                                  evidence.right.begin()];
   mix(weights, told, answer.moving);
   mix(weights, states, answer.state);
-  answer.log_ratio = heard.log_moving - heard.log_parked;
+  answer.log_ratio = evidence.log_moving - evidence.log_parked;
   answer.log_odds += answer.log_ratio;
 }
 
@@ -296,8 +207,8 @@ MotionAnswer estimate_motion(const ObjectTrack& track, const ImageFactor& image,
   answer.moving.covariance = ways.front().expected.covariance;
   answer.parked.covariance = parked.covariance;
   if (is_shown)
-    learn(hear(track.stamp, image, question, ways, parked, starts, options), ways, parked,
-          of_picture, question, answer);
+    learn(evidence_of_picture(track.stamp, image, question, ways, parked, starts, options), ways,
+          parked, of_picture, question, answer);
   if (!answer.is_seen && is_told_by_picture(track, options))
     go_on_as_told(track, question, parked.covariance, options, answer);
   answer.moves = options.static_test ? answer.log_odds > std::log(options.loss_ratio)

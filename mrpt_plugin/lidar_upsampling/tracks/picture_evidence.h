@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the lidar_upsampling authors
+#pragma once
+
+#include <vector>
+
+#include "lidar_upsampling/tracks/hypotheses.h"
+
+namespace lidar_upsampling {
+
+/// One of the ways in which the object may move.
+struct Way {
+  double probability = 0;
+  TrackState state;         ///< at the instant, as the filter has it
+  MotionExpected expected;  ///< then, with scans to come
+};
+
+/// What a picture makes of the hypotheses.
+struct PictureEvidence {
+  MotionFit parked;
+  std::vector<MotionFit> moving;  ///< each way
+  std::vector<double> right;      ///< probability of each way and of a right picture, if it moves
+  std::vector<double> wrong;      ///< likewise, but the points were found at wrong places
+  double log_parked = 0, log_moving = 0;  ///< evidence
+};
+
+/// @brief Fits every hypothesis to the picture, and weighs them: rightly asked, or with points that
+/// were found at wrong places.
+/// @param stamp of the object's sight.
+/// @param parked, ways what is expected, with all that the points may have wrong alike.
+/// @param starts motions from which the picture may be explained, besides.
+[[nodiscard]] PictureEvidence evidence_of_picture(Stamp stamp, const ImageFactor& image,
+                                                  const MotionQuestion& question,
+                                                  const std::vector<Way>& ways,
+                                                  const MotionExpected& parked,
+                                                  const std::vector<Twist>& starts,
+                                                  const TrackOptions& options);
+
+}  // namespace lidar_upsampling
