@@ -20,6 +20,7 @@
 #include "rawlog-densify/ego_ahead.h"
 #include "rawlog-densify/log_ahead.h"
 #include "scan_queue.h"
+#include "straight_scans.h"
 
 namespace lidar_upsampling {
 
@@ -35,21 +36,23 @@ class Walk {
         cameras_(calibrated_cameras(indices.input)),
         queue_(job_, cameras_, result_.scans) {
     const std::vector<Stamp>& real = indices.input.find(result.label, StreamKind::lidar)->stamps;
-    if (indices.reference) {
-      const StreamInfo& stream = reference_stream(*indices.reference, result.label);
-      references_.emplace(LogFile(job.reference, job.accept_truncated), stream.label, stream.stamps,
-                          real, job.tolerance_s);
-      if (references_->none_withheld())
-        result_.notes.emplace_back("no scan was withheld: judged by real scans that the log holds");
-    }
     if (!job.truth_objects.empty()) {
       truth_ = load_truth(job.truth_objects);
       for (const std::string& warning : truth_->warnings)
         result_.notes.push_back(job.truth_objects + ": " + warning);
       labels_.emplace(*truth_, job_.options, cameras_, real);
     }
-    keys_.emplace(job_.options, cameras_, truth_ ? &*truth_ : nullptr,
-                  references_ ? &*references_ : nullptr);
+    const Truth* truth = truth_ ? &*truth_ : nullptr;
+    const SweepOptions& sweep = job.paper.config.sweep;
+    straight_.emplace(sweep, real, truth);
+    if (indices.reference) {
+      const StreamInfo& stream = reference_stream(*indices.reference, result.label);
+      references_.emplace(LogFile(job.reference, job.accept_truncated), stream.label, stream.stamps,
+                          real, job.tolerance_s, StraightScans(sweep, stream.stamps, truth));
+      if (references_->none_withheld())
+        result_.notes.emplace_back("no scan was withheld: judged by real scans that the log holds");
+    }
+    keys_.emplace(job_.options, cameras_, truth, references_ ? &*references_ : nullptr);
     if (!job.paper_row) return;
     try {
       paper_.emplace(job.paper, without_virtual(indices.input, result.virtual_label),
@@ -108,7 +111,7 @@ class Walk {
   }
 
   void take_key(LidarScan scan) {
-    keys_->take(std::move(scan));
+    keys_->take(straight_->straight(std::move(scan)));
     if (labels_) labels_->take_key(*keys_->scan(), keys_->last_motions());
   }
 
@@ -168,6 +171,7 @@ class Walk {
   std::optional<ReferenceScans> references_;  ///< none: by labels alone
   std::optional<Truth> truth_;
   std::optional<LabelJudge> labels_;
+  std::optional<StraightScans> straight_;  ///< of the densified log
   std::optional<KeyScans> keys_;
   DensifyReport paper_report_;
   std::optional<Densification> paper_;

@@ -38,13 +38,13 @@ std::optional<LidarScan> ScanFeed::next() {
 
 ReferenceScans::ReferenceScans(const LogFile& log, const std::string& label,
                                std::vector<Stamp> stamps, const std::vector<Stamp>& kept,
-                               double tolerance_s)
+                               double tolerance_s, StraightScans straight)
     : stamps_(std::move(stamps)),
       kept_(kept),
       tolerance_s_(tolerance_s),
-      feed_(log, [this, label](const std::string& of_scan, Stamp stamp) {
-        return of_scan == label && stamp >= asked_;
-      }) {
+      feed_(log, [this, label](const std::string& of_scan,
+                               Stamp stamp) { return of_scan == label && stamp >= asked_; }),
+      straight_(std::move(straight)) {
   std::sort(stamps_.begin(), stamps_.end());
   std::sort(kept_.begin(), kept_.end());
   none_withheld_ = std::all_of(stamps_.begin(), stamps_.end(), [this](Stamp stamp) {
@@ -83,7 +83,7 @@ const LidarScan* ReferenceScans::scan_at(Stamp stamp) {
   if (known != scans_.end()) return &*known;
   asked_ = stamp;
   while (auto scan = feed_.next()) {
-    scans_.push_back(std::move(*scan));
+    scans_.push_back(straight_.straight(std::move(*scan)));
     // Pointers to the others stay good.
     if (scans_.size() > 3) scans_.pop_front();
     if (scans_.back().stamp == stamp) return &scans_.back();

@@ -11,6 +11,7 @@
 #include "lidar_upsampling/front_end/usable_observations.h"
 #include "lidar_upsampling/io/rawlog_stream.h"
 #include "lidar_upsampling/types.h"
+#include "straight_scans.h"
 
 namespace lidar_upsampling {
 
@@ -46,8 +47,9 @@ class ReferenceScans {
   /// @param stamps of the label's scans in the log.
   /// @param kept stamps of the scans that the densified log still holds; where all are kept, each
   /// counts as withheld.
+  /// @param straight of this log's scans.
   ReferenceScans(const LogFile& log, const std::string& label, std::vector<Stamp> stamps,
-                 const std::vector<Stamp>& kept, double tolerance_s);
+                 const std::vector<Stamp>& kept, double tolerance_s, StraightScans straight);
 
   ReferenceScans(const ReferenceScans&) = delete;
   ReferenceScans& operator=(const ReferenceScans&) = delete;
@@ -67,6 +69,7 @@ class ReferenceScans {
   double tolerance_s_;
   Stamp asked_;
   ScanFeed feed_;
+  StraightScans straight_;
   std::deque<LidarScan> scans_;  // the last ones read
 };
 
