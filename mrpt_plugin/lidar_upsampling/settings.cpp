@@ -223,7 +223,7 @@ void list_tracks(Config& c, SettingList& v) {
   v.number("unknown_speed_sigma_m_s", t.noise.unknown_speed_sigma, kPositive,
            "per axis, of an object seen for the first time");
   v.number("aside_speed_sigma_m_s", t.noise.aside_speed_sigma, kPositive,
-           "across our own heading, of one that goes our road, as half of them do");
+           "across our road or its own sides, of one that goes along these, as half of them do");
   v.number("unknown_yaw_rate_sigma_rad_s", t.noise.unknown_yaw_rate_sigma, kPositive, "likewise");
   v.number("acceleration_sigma_m_s2", t.noise.acceleration_sigma, kPositive,
            "per axis, by which velocities change");

@@ -241,7 +241,7 @@ TEST(Hypotheses, what_may_go_our_road_is_not_held_for_parked_where_the_picture_c
   ObjectTrack track = new_track();
   track.log_odds = 4;
   const double anywhere = estimate_motion(track, image, question, {}, {}).log_odds;
-  track.beginnings = {{track.state, 0.5}, {along_road(track.state, 0, {}), 0.5}};
+  track.beginnings = {{track.state, 0.5}, {going_along(track.state, 0, {}), 0.5}};
   EXPECT_GT(estimate_motion(track, image, question, {}, {}).log_odds, anywhere + 0.5);
 }
 

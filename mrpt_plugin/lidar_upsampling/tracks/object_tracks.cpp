@@ -8,6 +8,7 @@
 #include <cmath>
 #include <map>
 
+#include "lidar_upsampling/objects/sides.h"
 #include "lidar_upsampling/registration/voxel_grid.h"
 #include "lidar_upsampling/tracks/log_odds.h"
 #include "lidar_upsampling/tracks/pieces.h"
@@ -42,6 +43,11 @@ double heading_of(const TrackedScan& scan) {
   return std::atan2(T_rest_vehicle(1, 0), T_rest_vehicle(0, 0));
 }
 
+double heading_of(const ScanObject& object, const TrackedScan& scan) {
+  const Eigen::Matrix3d R = scan.T_rest_lidar.linear();
+  return yaw_of_sides(points_at(scan.scan, object.points)) + std::atan2(R(1, 0), R(0, 0));
+}
+
 void see_anew(ObjectTrack& track, const ScanObject& object, std::shared_ptr<const Surface> surface,
               const TrackedScan& scan) {
   track.ahead.reset();
@@ -59,8 +65,7 @@ void see_anew(ObjectTrack& track, const ScanObject& object, std::shared_ptr<cons
 }
 
 /// A new object, which may be a piece of one that moves and then moves as that does; else, if it
-/// moves, it goes anywhere, or our road. What is beside something parked may come out from behind
-/// it.
+/// moves, it goes anywhere, or along: our road, or its own sides, as whatever has wheels.
 ObjectTrack new_track(const ScanObject& object, const TrackedScan& scan,
                       const std::vector<ObjectTrack>& tracks, std::size_t num_known,
                       const TrackOptions& options) {
@@ -68,11 +73,14 @@ ObjectTrack new_track(const ScanObject& object, const TrackedScan& scan,
   const Whole whole = whole_of(object, scan, tracks, num_known, options);
   const double moves = whole.probability + (1 - whole.probability) * options.moving_prior;
   ObjectTrack track;
-  const double along = whole.probability / moves, alone = (1 - along) / 2;
-  track.beginnings = {{any, alone}, {along_road(any, heading_of(scan), options.noise), alone}};
-  if (along > kWorthAFit)
-    track.beginnings.insert(along > alone ? track.beginnings.begin() : track.beginnings.end(),
-                            {whole.state, along});
+  const double as_piece = whole.probability / moves, alone = 1 - as_piece;
+  track.beginnings = {{any, alone / 2},
+                      {going_along(any, heading_of(scan), options.noise), alone / 4},
+                      {going_along(any, heading_of(object, scan), options.noise), alone / 4}};
+  if (as_piece > kWorthAFit)
+    track.beginnings.insert(
+        2 * as_piece > alone ? track.beginnings.begin() : track.beginnings.end(),
+        {whole.state, as_piece});
   track.state = track.beginnings.front().from;
   track.log_odds = log_odds_of(moves);
   return track;
@@ -193,8 +201,8 @@ std::vector<Course> courses_before_images(const ObjectTrack& track,
   if (share / 2 < kWorthAFit) return courses;
   MotionNoise as_fast = noise;
   as_fast.unknown_speed_sigma = kAny_m_s + kShareOfSpeed * speed;
-  TrackState traffic = along_road(new_track_state(track.stamp, noise),
-                                  std::atan2(ego_velocity.y(), ego_velocity.x()), as_fast);
+  TrackState traffic = going_along(new_track_state(track.stamp, noise),
+                                   std::atan2(ego_velocity.y(), ego_velocity.x()), as_fast);
   for (const double way : {1., -1.}) {
     traffic.mean.segment<2>(3) = way * ego_velocity;
     courses.push_back({traffic, share / 2});

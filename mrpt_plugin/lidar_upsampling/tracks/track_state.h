@@ -13,7 +13,7 @@ namespace lidar_upsampling {
 /// and Navigation, 8.2.3).
 struct MotionNoise {
   double unknown_speed_sigma = 20;      ///< m/s per axis, of an object seen for the first time
-  double aside_speed_sigma = 2;         ///< m/s, likewise, across the road if it follows that
+  double aside_speed_sigma = 2;         ///< m/s, likewise, across what it goes along, if anything
   double unknown_yaw_rate_sigma = 0.3;  ///< rad/s, likewise
   double acceleration_sigma = 2;        ///< m/s^2 per axis
   double acceleration_time = 2;         ///< s, that it lasts
@@ -47,9 +47,9 @@ struct TrackState {
 /// Nothing is known of how it moves.
 [[nodiscard]] TrackState new_track_state(Stamp stamp, const MotionNoise& noise);
 
-/// @brief The same, but it goes along a road, either way.
-/// @param heading of the road, rad.
-[[nodiscard]] TrackState along_road(TrackState state, double heading, const MotionNoise& noise);
+/// @brief The same, but it goes along a direction, either way.
+/// @param heading rad.
+[[nodiscard]] TrackState going_along(TrackState state, double heading, const MotionNoise& noise);
 
 /// @brief At constant turn rate, with a fading acceleration, but for the noise; nothing changes
 /// backwards in time.

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the lidar_upsampling authors
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "lidar_upsampling/tracks/hypotheses.h"
+#include "lidar_upsampling/units.h"
+
+#include "tracks/car_on_pictures.h"
+
+namespace lidar_upsampling {
+namespace {
+
+using testing::ahead;
+using testing::kStart;
+
+constexpr double kYaw = 50 * kDegree;  // of the car, as the lidar sees it
+const Eigen::Vector3d kPlace(20, 3, 0);
+
+Eigen::Vector3d direction(double yaw) { return {std::cos(yaw), std::sin(yaw), 0}; }
+
+/// The two sides of a car that a lidar at the origin sees.
+std::vector<Eigen::Vector3d> crossing_car() {
+  const Eigen::Vector3d along = direction(kYaw), across = direction(kYaw + M_PI / 2);
+  std::vector<Eigen::Vector3d> points;
+  for (const double up : {-0.6, -0.2, 0.2, 0.6}) {
+    const Eigen::Vector3d middle = kPlace + Eigen::Vector3d(0, 0, up);
+    for (double d = -2.1; d < 2.1; d += 0.2) points.push_back(middle + d * along - 0.9 * across);
+    for (double d = -0.9; d < 0.9; d += 0.2) points.push_back(middle - 2.1 * along + d * across);
+  }
+  return points;
+}
+
+/// @param lidar_yaw of the lidar in the frame at rest.
+ObjectTrack first_sight(double lidar_yaw) {
+  LidarScan scan;
+  scan.stamp = kStart;
+  ScanObject object;
+  for (const Eigen::Vector3d& point : crossing_car()) {
+    object.points.push_back(static_cast<int>(scan.points.size()));
+    scan.points.push_back(point.cast<float>());
+  }
+  object.centroid = kPlace;
+  object.length = 4.2;
+  const Pose T_rest_lidar(Eigen::AngleAxisd(lidar_yaw, Eigen::Vector3d::UnitZ()));
+  const Matrix6d none = Matrix6d::Zero();
+  const SeenSpace seen{{}, 0.4};
+  std::vector<ScanObject> objects{object};
+  TrackStore store;
+  take_up_scan(store, objects, {scan, T_rest_lidar, none, seen, nullptr, {}}, {});
+  return store.tracks.front();
+}
+
+double speed_variance(const Course& course, double yaw) {
+  const Eigen::Vector2d d = direction(yaw).head<2>();
+  return d.dot(course.from.covariance.block<2, 2>(3, 3) * d);
+}
+
+TEST(NewObject, may_go_anywhere_or_along_our_road_or_along_its_own_sides) {
+  constexpr double kLidarYaw = 0.4;
+  const ObjectTrack track = first_sight(kLidarYaw);
+  double sum = 0, aside = 0;
+  for (const Course& course : track.beginnings) {
+    sum += course.probability;
+    const double yaw = kYaw + kLidarYaw;
+    if (speed_variance(course, yaw + M_PI / 2) > 0.1 * speed_variance(course, yaw)) continue;
+    aside += course.probability;
+  }
+  EXPECT_EQ(track.beginnings.size(), 3U);
+  EXPECT_NEAR(sum, 1, 1e-9);
+  EXPECT_NEAR(aside, 0.25, 1e-9);
+}
+
+// A picture taken soon tells little of how far something has come nearer.
+TEST(NewObject, comes_nearer_as_its_sides_tell_where_the_picture_does_not) {
+  const ObjectTrack track = first_sight(0);
+  ObjectTrack of_no_shape = track;
+  of_no_shape.beginnings = {{track.state, 1}};
+  Twist truth = Twist::Zero();
+  truth.tail<3>() = 0.3 * direction(kYaw);  // 9 m/s
+  MotionQuestion question;
+  question.instant = shifted(kStart, 0.033);
+  question.centroid = kPlace;
+  const Pose T = ahead() * motion_pose(truth, kPlace);
+  double by_sides_m = 0, by_picture_m = 0;
+  for (unsigned seed = 0; seed < 20; ++seed) {
+    std::mt19937 random(seed);
+    std::normal_distribution<double> noise(0, 0.3 / 700);
+    std::vector<Observation> seen;
+    for (const Eigen::Vector3d& point : crossing_car()) {
+      const Eigen::Vector3d at = T * point;
+      seen.push_back({point, at.head<2>() / at.z() + Eigen::Vector2d(noise(random), noise(random)),
+                      700 * Eigen::Matrix2d::Identity(), static_cast<int>(seen.size())});
+    }
+    question.num_followed = static_cast<int>(seen.size());
+    ImageFactor image;
+    image.add({ahead(), 1, Eigen::Vector3d::Zero()}, seen);
+    const auto error = [&](const ObjectTrack& object) {
+      return (estimate_motion(object, image, question, {truth}, {}).moving.mean - truth)
+          .tail<3>()
+          .norm();
+    };
+    by_sides_m += error(track) / 20;
+    by_picture_m += error(of_no_shape) / 20;
+  }
+  EXPECT_LT(by_sides_m, 0.5 * by_picture_m);
+}
+
+}  // namespace
+}  // namespace lidar_upsampling
