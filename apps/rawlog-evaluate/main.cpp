@@ -77,7 +77,7 @@ void add_options(CLI::App& app, Request& request) {
   app.add_flag("--exact-emd", job.options.exact_emd,
                "the exact assignment of 2048 points beside the published EMD (slow)");
   app.add_option("--config", request.config,
-                 "settings that the log was densified with, for row `paper`");
+                 "settings that the log was densified with, for row `paper` and for `scan_time`");
   app.add_option("--set", request.sets, "one such setting, as for rawlog-densify")
       ->expected(1)
       ->take_all();
