@@ -26,6 +26,14 @@ namespace lidar_upsampling {
 
 namespace {
 
+/// By the log's first two scans.
+void start(StraightScans& straight, const LogFile& log, const std::string& label) {
+  ScanFeed scans(log, [&label](const std::string& of_scan, Stamp) { return of_scan == label; });
+  const auto first = scans.next();
+  const auto second = first ? scans.next() : std::nullopt;
+  if (second) straight.start_with(*first, *second);
+}
+
 /// Goes once through the densified log. The `paper` row's run is fed alongside, so that its virtual
 /// scans come up when ours do.
 class Walk {
@@ -43,12 +51,15 @@ class Walk {
       labels_.emplace(*truth_, job_.options, cameras_, real);
     }
     const Truth* truth = truth_ ? &*truth_ : nullptr;
-    const SweepOptions& sweep = job.paper.config.sweep;
-    straight_.emplace(sweep, real, truth);
+    straight_.emplace(job.paper.config.sweep, real, truth);
+    start(*straight_, LogFile(job.input, job.accept_truncated), result.label);
     if (indices.reference) {
       const StreamInfo& stream = reference_stream(*indices.reference, result.label);
-      references_.emplace(LogFile(job.reference, job.accept_truncated), stream.label, stream.stamps,
-                          real, job.tolerance_s, StraightScans(sweep, stream.stamps, truth));
+      const LogFile log(job.reference, job.accept_truncated);
+      StraightScans straight(job.paper.config.sweep, stream.stamps, truth);
+      start(straight, log, stream.label);
+      references_.emplace(log, stream.label, stream.stamps, real, job.tolerance_s,
+                          std::move(straight));
       if (references_->none_withheld())
         result_.notes.emplace_back("no scan was withheld: judged by real scans that the log holds");
     }

@@ -27,12 +27,16 @@ void StraightScans::straighten(LidarScan& scan, const std::vector<float>& times)
   });
 }
 
-bool StraightScans::learn_rate(const LidarScan& scan) {
-  const double dt = before_ ? seconds_between(before_->stamp, scan.stamp) : 0;
+bool StraightScans::learn_rate(const LidarScan& before, const LidarScan& scan) {
+  const double dt = seconds_between(before.stamp, scan.stamp);
   if (!(dt > 0)) return false;
-  const auto found = register_scans(scan.points, before_->points, exp_se3(Twist(-dt * rate_)));
+  const auto found = register_scans(scan.points, before.points, exp_se3(Twist(-dt * rate_)));
   if (found) rate_ = -log_se3(found->T_target_source) / dt;
   return found.has_value();
+}
+
+void StraightScans::start_with(const LidarScan& first, const LidarScan& second) {
+  if (truth_ == nullptr && !point_times(first, sweep_, turn_s_).empty()) learn_rate(first, second);
 }
 
 LidarScan StraightScans::straight(LidarScan scan) {
@@ -42,7 +46,7 @@ LidarScan StraightScans::straight(LidarScan scan) {
   const std::vector<Eigen::Vector3f> as_measured = scan.points;
   straighten(scan, times);
   if (truth_ != nullptr) return scan;
-  if (learn_rate(scan)) {
+  if (before_ && learn_rate(*before_, scan)) {
     scan.points = as_measured;  // once more, by the rate that it showed itself
     straighten(scan, times);
   }

@@ -20,13 +20,15 @@ class StraightScans {
   /// gap is a turn where `sweep` tells none. @param truth null: none; must outlive this.
   StraightScans(const SweepOptions& sweep, const std::vector<Stamp>& stamps, const Truth* truth);
 
-  /// To be called in the scans' order. The first one stays as it is if there is no truth.
-  /// @throw std::runtime_error as point_times()
+  /// Without a truth, the rate of the first scans: they need not be straight, being swept alike.
+  void start_with(const LidarScan& first, const LidarScan& second);
+
+  /// To be called in the scans' order. @throw std::runtime_error as point_times()
   [[nodiscard]] LidarScan straight(LidarScan scan);
 
  private:
   void straighten(LidarScan& scan, const std::vector<float>& times) const;
-  [[nodiscard]] bool learn_rate(const LidarScan& scan);
+  bool learn_rate(const LidarScan& before, const LidarScan& scan);
 
   SweepOptions sweep_;
   double turn_s_ = 0;

@@ -110,5 +110,24 @@ TEST_F(Evaluation, every_row_is_there_and_only_the_true_motion_is_free_of_error)
             summary["hold"]["sampled"]["chamfer_m2"]["mean"]);
 }
 
+TEST(EvaluationOfSweeps, what_was_straightened_is_judged_by_scans_that_are) {
+  const TestFolder folder;
+  simulate(folder, "[lidar]\nsweep = true\n[log]\ncarrier = velodyne\n");
+  densify(folder, "--set resample=none");
+  const auto judged = [&](const std::string& how) {
+    return evaluate(folder, "truth.rawlog", "--no-paper --no-chamfer " + how);
+  };
+  const auto static_error_m = [&](const std::string& scan_time) {
+    const auto errors =
+        judged("--set scan_time=" + scan_time + " --truth-objects " + folder / "in_objects.csv");
+    const auto& objects = errors["summary"]["ours"]["static_objects_m"];
+    EXPECT_GT(objects["count"], 0);
+    return objects["mean"].template get<double>();
+  };
+  EXPECT_LT(static_error_m("auto"), 0.3 * static_error_m("none"));
+  for (const auto& scan : judged("")["scans"])
+    EXPECT_EQ(scan["points_told"], true) << "points of ours are those of the key scan";
+}
+
 }  // namespace
 }  // namespace lidar_upsampling

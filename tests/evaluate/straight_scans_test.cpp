@@ -65,6 +65,13 @@ TEST(StraightScans, without_a_truth_the_scan_before_tells_how_the_lidar_went) {
   EXPECT_LT(second.error_of(scans.straight(second.swept)), 0.01);
 }
 
+TEST(StraightScans, the_first_ones_as_they_are_tell_enough_to_begin_with) {
+  const Sweep first(0), second(0.1);
+  StraightScans scans = as_the_log_tells(nullptr);
+  scans.start_with(first.swept, second.swept);
+  EXPECT_LT(first.error_of(scans.straight(first.swept)), 0.02);
+}
+
 TEST(StraightScans, the_truth_straightens_the_first_one_too) {
   Truth truth;
   for (const double t : {-0.1, 0., 0.1})
