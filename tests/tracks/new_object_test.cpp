@@ -27,8 +27,8 @@ std::vector<Eigen::Vector3d> crossing_car() {
   std::vector<Eigen::Vector3d> points;
   for (const double up : {-0.6, -0.2, 0.2, 0.6}) {
     const Eigen::Vector3d middle = kPlace + Eigen::Vector3d(0, 0, up);
-    for (double d = -2.1; d < 2.1; d += 0.2) points.push_back(middle + d * along - 0.9 * across);
-    for (double d = -0.9; d < 0.9; d += 0.2) points.push_back(middle - 2.1 * along + d * across);
+    for (double d = -2.1; d < 2.1; d += 0.2) points.emplace_back(middle + d * along - 0.9 * across);
+    for (double d = -0.9; d < 0.9; d += 0.2) points.emplace_back(middle - 2.1 * along + d * across);
   }
   return points;
 }
@@ -40,7 +40,7 @@ ObjectTrack first_sight(double lidar_yaw) {
   ScanObject object;
   for (const Eigen::Vector3d& point : crossing_car()) {
     object.points.push_back(static_cast<int>(scan.points.size()));
-    scan.points.push_back(point.cast<float>());
+    scan.points.emplace_back(point.cast<float>());
   }
   object.centroid = kPlace;
   object.length = 4.2;
