@@ -22,11 +22,13 @@ struct Appearance {
   Box2d box;
 };
 
-Appearance appearance_of(const Camera& camera, const LidarScan& scan, const ObjectMotion& motion) {
-  const Pose T = T_camera_lidar_of(camera, scan.T_vehicle_lidar) * motion.T_lidar_t_lidar_k;
+Appearance appearance_of(const Camera& camera, const Pose& T_vehicle_lidar,
+                         const std::vector<Eigen::Vector3f>& points,
+                         const Pose& T_lidar_t_lidar_k) {
+  const Pose T = T_camera_lidar_of(camera, T_vehicle_lidar) * T_lidar_t_lidar_k;
   Appearance result{&camera, 0, Box2d::around_nothing()};
-  for (const int i : motion.points) {
-    const auto pixel = project(camera.model, T * scan.points[i].cast<double>());
+  for (const Eigen::Vector3f& point : points) {
+    const auto pixel = project(camera.model, T * point.cast<double>());
     if (!pixel) continue;
     result.box.extend(pixel->x(), pixel->y());
     ++result.num_points;
@@ -34,12 +36,15 @@ Appearance appearance_of(const Camera& camera, const LidarScan& scan, const Obje
   return result;
 }
 
-// On the picture that shows most of it, if any does.
+// On the picture that shows most of it, if any does. Of what is hidden, where it would be.
 Appearance shown(const std::vector<const Camera*>& cameras, const LidarScan& scan,
-                 const ObjectMotion& motion) {
+                 const ObjectMotion& motion, const ObjectTrack& track) {
+  const std::vector<Eigen::Vector3f> points =
+      motion.points.empty() ? track.surface->points() : points_at(scan, motion.points);
   Appearance best;
   for (const Camera* camera : cameras) {
-    const Appearance here = appearance_of(*camera, scan, motion);
+    const Appearance here =
+        appearance_of(*camera, scan.T_vehicle_lidar, points, motion.T_lidar_t_lidar_k);
     if (here.num_points > best.num_points) best = here;
   }
   return best.num_points > 0 ? best : Appearance{};
@@ -151,8 +156,8 @@ std::vector<ObjectMotion> estimate_motions(const std::vector<ImageResult>& group
     motion.num_tracked = answer.num_found;
     motion.status = status_of(answer, motion.num_tracked, config);
     motion.track_id = track.id;
-    Appearance on_picture = shown(in_group, key.scan, motion);
-    if (on_picture.camera == nullptr) on_picture = shown(rig, key.scan, motion);
+    Appearance on_picture = shown(in_group, key.scan, motion, track);
+    if (on_picture.camera == nullptr) on_picture = shown(rig, key.scan, motion, track);
     if (on_picture.camera == nullptr) return;
     motion.camera_label = on_picture.camera->label;
     motion.box = on_picture.box;

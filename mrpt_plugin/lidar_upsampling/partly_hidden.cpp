@@ -14,6 +14,14 @@ namespace {
 
 constexpr double kMostly = 0.3;  // share of a cluster that speaks for all of it
 
+/// Whether most of it lies behind something nearer, or where the sensor does not look.
+bool is_hidden(const SeenSpace& seen, const std::vector<Eigen::Vector3f>& places) {
+  const auto hidden =
+      std::count_if(places.begin(), places.end(),
+                    [&](const Eigen::Vector3f& place) { return seen.at(place) == Sight::hidden; });
+  return 2 * static_cast<std::size_t>(hidden) > places.size();
+}
+
 }  // namespace
 
 std::vector<int> with_their_clusters(const PreparedScan& scan,
@@ -54,8 +62,8 @@ std::vector<int> points_near(const PreparedScan& scan, std::vector<Eigen::Vector
   });
 }
 
-void take_up_partly_hidden(PreparedScan& scan, TrackStore& store, std::vector<int>& track_of,
-                           const TrackOptions& options) {
+void take_up_hidden(PreparedScan& scan, TrackStore& store, std::vector<int>& track_of,
+                    const TrackOptions& options) {
   std::vector<bool> is_taken(scan.scan.size(), false), is_seen(store.tracks.size(), false);
   const auto take = [&](const ScanObject& object) {
     for (const int i : object.points) is_taken[i] = true;
@@ -64,18 +72,21 @@ void take_up_partly_hidden(PreparedScan& scan, TrackStore& store, std::vector<in
   for (const int track : track_of) is_seen[track] = true;
   for (std::size_t i = 0; i < store.tracks.size(); ++i) {
     ObjectTrack& track = store.tracks[i];
+    if (is_seen[i] || !is_mover(track, options)) continue;
     const TrackState now = predicted(track.latest, scan.scan.stamp, options.noise);
-    if (is_seen[i] || !is_predictable(track, now, options)) continue;
+    std::vector<Eigen::Vector3f> places = points_by(track, now, scan.T_rest_lidar);
+    const bool hides = is_hidden(*scan.seen, places) && is_known_within(now, 0.5 * track.length);
     ScanObject object;
-    object.points = points_near(scan, points_by(track, now, scan.T_rest_lidar),
-                                [&](int point) { return !is_taken[point]; });
-    if (object.points.empty()) continue;
+    if (is_known_within(now, kReach_m))
+      object.points = points_near(scan, std::move(places), [&](int j) { return !is_taken[j]; });
+    if (object.points.empty() && !hides) continue;
     object.class_name = track.class_name;
     object.external_id = track.external_id;
-    object.centroid = mean_of(points_at(scan.scan, object.points));
     object.length = track.length;
     take(object);
     go_on(track, now, scan.T_rest_lidar, options);
+    object.centroid = object.points.empty() ? scan.T_rest_lidar.inverse() * track.centroid_rest
+                                            : mean_of(points_at(scan.scan, object.points));
     scan.objects.push_back(std::move(object));
     track_of.push_back(static_cast<int>(i));
   }

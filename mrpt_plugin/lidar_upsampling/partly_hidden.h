@@ -24,10 +24,11 @@ namespace lidar_upsampling {
                                            const std::function<bool(int)>& may_belong);
 
 /// @brief Tracks that move and are none of the scan's candidates become objects of it by what is to
-/// be seen of them where they are predicted: the few points that something nearer leaves, or a part
-/// of a cluster that is too large. It tells nothing of their motion, which goes on.
+/// be seen of them where they are predicted: the few points that something nearer leaves, a part of
+/// a cluster that is too large, or nothing, where all of it is hidden. It tells nothing of their
+/// motion, which goes on as long as their place is known better than they are long.
 /// @param track_of of the scan's objects; grows with them.
-void take_up_partly_hidden(PreparedScan& scan, TrackStore& store, std::vector<int>& track_of,
-                           const TrackOptions& options);
+void take_up_hidden(PreparedScan& scan, TrackStore& store, std::vector<int>& track_of,
+                    const TrackOptions& options);
 
 }  // namespace lidar_upsampling

@@ -33,7 +33,7 @@ ScanMotion motion_of_next(const PreparedScan& next, const ScanMotion& of_key,
   motion.T_lidar_t_lidar_k = of_key.T_lidar_t_lidar_k * next.T_scan_before.inverse();
   std::vector<int> owner(next.scan.size(), kNobody);
   for (const ObjectMotion& object : of_key.objects) {
-    if (!moves(object)) continue;
+    if (!moves(object) || object.points.empty()) continue;
     const Pose T_next_k = next.T_scan_before * exp_se3(Twist(log_se3(object.T_mov) * share));
     ObjectMotion back = object;
     back.T_lidar_t_lidar_k = object.T_lidar_t_lidar_k * T_next_k.inverse();

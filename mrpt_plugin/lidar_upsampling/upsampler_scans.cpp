@@ -164,7 +164,7 @@ void LidarUpsampler::take_up(const Picture* anchor) {
   }
   track_of_ = take_up_scan(store_, key_->objects, key_->tracked(), config_.object_tracks);
   if (config_.object_motion.world_tracks)
-    take_up_partly_hidden(*key_, store_, track_of_, config_.object_tracks);
+    take_up_hidden(*key_, store_, track_of_, config_.object_tracks);
   is_taken_up_ = true;
   std::vector<ScanToCome> to_come;
   for (const auto& next : to_come_) to_come.push_back({next->objects, next->tracked()});

@@ -4,12 +4,27 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "lidar_upsampling/types.h"
+#include "lidar_upsampling/units.h"
 
 namespace lidar_upsampling {
 namespace {
 
 constexpr double kSpeed_m_s = 10;
+
+/// A scan that meets a wall all around.
+std::shared_ptr<const SeenSpace> wall_at(float range_m) {
+  std::vector<Eigen::Vector3f> points;
+  for (double up_deg = -10; up_deg < 10; up_deg += 0.4)
+    for (double azimuth_deg = -180; azimuth_deg < 180; azimuth_deg += 0.2)
+      points.push_back(range_m * Eigen::Vector3d(std::cos(azimuth_deg * kDegree),
+                                                 std::sin(azimuth_deg * kDegree),
+                                                 std::tan(up_deg * kDegree))
+                                     .cast<float>());
+  return std::make_shared<const SeenSpace>(points, 0.4);
+}
 
 /// A car's side of 4 m, known since a second, of which the next scan shows three points.
 class PartlyHidden : public ::testing::Test {
@@ -32,9 +47,10 @@ class PartlyHidden : public ::testing::Test {
     store_.next_id = 6;
     scan_.scan.stamp = shifted(car.stamp, 0.1);
     scan_.scan.points = {{13, 5, 0}, {13.2F, 5, 0}, {13.4F, 5.1F, 0}, {13.2F, 7, 0}};
+    scan_.seen = wall_at(50);
     scan_.segments.cluster_of.assign(scan_.scan.size(), -1);
   }
-  void take_up() { take_up_partly_hidden(scan_, store_, track_of_, options_); }
+  void take_up() { take_up_hidden(scan_, store_, track_of_, options_); }
 
   PreparedScan scan_;
   TrackStore store_;
@@ -62,6 +78,45 @@ TEST_F(PartlyHidden, it_goes_on_as_it_did_and_all_that_was_seen_of_it_comes_alon
   EXPECT_NEAR(car.expected_at(shifted(car.stamp, 0.1), {}).mean[0], 1, 0.02);
   EXPECT_NEAR(car.state.covariance(0, 0), sigma_before, 1e-12) << "its place is no better known";
   EXPECT_LT(car.log_odds, 6) << "nothing has told that it still moves";
+}
+
+/// As before, but that the next scan shows nothing of it.
+class Hidden : public PartlyHidden {
+ protected:
+  void SetUp() override {
+    PartlyHidden::SetUp();
+    scan_.scan.points = {{3, 0, 0}};
+    scan_.segments.cluster_of.assign(1, -1);
+    scan_.seen = wall_at(5);
+  }
+};
+
+TEST_F(Hidden, what_moves_goes_on_behind_what_hides_it) {
+  take_up();
+  ASSERT_EQ(scan_.objects.size(), 1U);
+  EXPECT_TRUE(scan_.objects.front().points.empty());
+  EXPECT_NEAR(scan_.objects.front().centroid.x(), 13, 0.01);
+  EXPECT_EQ(store_.tracks.front().stamp, scan_.scan.stamp);
+  EXPECT_EQ(track_of_, std::vector<int>{0});
+}
+
+TEST_F(Hidden, it_is_not_where_the_scan_has_seen_through) {
+  scan_.seen = wall_at(50);
+  take_up();
+  EXPECT_TRUE(scan_.objects.empty());
+}
+
+TEST_F(Hidden, it_ends_when_its_place_is_known_no_better_than_it_is_long) {
+  store_.tracks[0].latest.covariance.topLeftCorner<2, 2>() =
+      1.8 * 1.8 * Eigen::Matrix2d::Identity();
+  take_up();
+  EXPECT_EQ(scan_.objects.size(), 1U);
+  Hidden::SetUp();
+  scan_.objects.clear();
+  store_.tracks[0].latest.covariance.topLeftCorner<2, 2>() =
+      2.2 * 2.2 * Eigen::Matrix2d::Identity();
+  take_up();
+  EXPECT_TRUE(scan_.objects.empty());
 }
 
 TEST_F(PartlyHidden, what_is_parked_leaves_them) {

@@ -23,9 +23,8 @@ constexpr double kWorthAFit = 1e-3;  // of probability: each way costs a fit per
 /// sight of an object that may go anywhere.
 bool is_lost(const ObjectTrack& track, Stamp now, const TrackOptions& options) {
   constexpr double kWide_s = 0.4;
-  const double widest = kWide_s * options.noise.unknown_speed_sigma;
-  const TrackState state = predicted(track.latest, now, options.noise);
-  return state.covariance.topLeftCorner<2, 2>().trace() > 2 * widest * widest;
+  return !is_known_within(predicted(track.latest, now, options.noise),
+                          kWide_s * options.noise.unknown_speed_sigma);
 }
 
 /// The end of the first passage, with what the others tell.
@@ -139,9 +138,12 @@ bool is_mover(const ObjectTrack& track, const TrackOptions& options) {
   return track.latest_log_odds > std::log(options.loss_ratio);
 }
 
+bool is_known_within(const TrackState& state, double sigma_m) {
+  return state.covariance.topLeftCorner<2, 2>().trace() < 2 * sigma_m * sigma_m;
+}
+
 bool is_predictable(const ObjectTrack& track, const TrackState& now, const TrackOptions& options) {
-  return is_mover(track, options) &&
-         now.covariance.topLeftCorner<2, 2>().trace() < 2 * kReach_m * kReach_m;
+  return is_mover(track, options) && is_known_within(now, kReach_m);
 }
 
 std::vector<Eigen::Vector3f> points_by(const ObjectTrack& track, const TrackState& now,

@@ -144,6 +144,9 @@ constexpr float kReach_m = 0.3F;
 /// Whether it moves, by all that is known, for certain enough to be told so.
 [[nodiscard]] bool is_mover(const ObjectTrack& track, const TrackOptions& options);
 
+/// Whether its place is known so well, one sigma per axis.
+[[nodiscard]] bool is_known_within(const TrackState& state, double sigma_m);
+
 /// @brief Whether it moves, and is known to lie within reach of a place.
 /// @param now its state as predicted.
 [[nodiscard]] bool is_predictable(const ObjectTrack& track, const TrackState& now,
