@@ -19,10 +19,10 @@ std::shared_ptr<const SeenSpace> wall_at(float range_m) {
   std::vector<Eigen::Vector3f> points;
   for (double up_deg = -10; up_deg < 10; up_deg += 0.4)
     for (double azimuth_deg = -180; azimuth_deg < 180; azimuth_deg += 0.2)
-      points.push_back(range_m * Eigen::Vector3d(std::cos(azimuth_deg * kDegree),
-                                                 std::sin(azimuth_deg * kDegree),
-                                                 std::tan(up_deg * kDegree))
-                                     .cast<float>());
+      points.emplace_back(range_m * Eigen::Vector3d(std::cos(azimuth_deg * kDegree),
+                                                    std::sin(azimuth_deg * kDegree),
+                                                    std::tan(up_deg * kDegree))
+                                        .cast<float>());
   return std::make_shared<const SeenSpace>(points, 0.4);
 }
 
