@@ -52,12 +52,12 @@ class Walk {
     }
     const Truth* truth = truth_ ? &*truth_ : nullptr;
     straight_.emplace(job.paper.config.sweep, real, truth);
-    start(*straight_, LogFile(job.input, job.accept_truncated), result.label);
+    if (!truth_) start(*straight_, LogFile(job.input, job.accept_truncated), result.label);
     if (indices.reference) {
       const StreamInfo& stream = reference_stream(*indices.reference, result.label);
       const LogFile log(job.reference, job.accept_truncated);
       StraightScans straight(job.paper.config.sweep, stream.stamps, truth);
-      start(straight, log, stream.label);
+      if (!truth_) start(straight, log, stream.label);
       references_.emplace(log, stream.label, stream.stamps, real, job.tolerance_s,
                           std::move(straight));
       if (references_->none_withheld())
