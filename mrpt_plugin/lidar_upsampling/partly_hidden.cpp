@@ -8,19 +8,12 @@
 #include <utility>
 
 #include "lidar_upsampling/registration/point_index.h"
+#include "lidar_upsampling/tracks/hidden_part.h"
 
 namespace lidar_upsampling {
 namespace {
 
 constexpr double kMostly = 0.3;  // share of a cluster that speaks for all of it
-
-/// Whether most of it lies behind something nearer, or where the sensor does not look.
-bool is_hidden(const SeenSpace& seen, const std::vector<Eigen::Vector3f>& places) {
-  const auto hidden =
-      std::count_if(places.begin(), places.end(),
-                    [&](const Eigen::Vector3f& place) { return seen.at(place) == Sight::hidden; });
-  return 2 * static_cast<std::size_t>(hidden) > places.size();
-}
 
 }  // namespace
 

@@ -5,6 +5,7 @@
 #include "lidar_upsampling/tracks/object_tracks.h"
 
 #include "tracks/car_on_pictures.h"
+#include "tracks/vehicle_surface.h"
 
 namespace lidar_upsampling {
 namespace {
@@ -22,12 +23,20 @@ ScanObject car_at(double x, double y) {
 /// Scans of a vehicle at rest that show these objects; nothing can be registered.
 class Street {
  public:
-  std::vector<int> show(double time_s, std::vector<ScanObject> objects) {
+  /// @param points of the first object; else all lie at one place.
+  std::vector<int> show(double time_s, std::vector<ScanObject> objects,
+                        const std::vector<Eigen::Vector3f>& points = {}) {
     scan_.stamp = shifted(kStart, time_s);
     scan_.points.assign(100, Eigen::Vector3f(10, 0, 0));
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      objects.front().points[i] = static_cast<int>(scan_.points.size());
+      scan_.points.push_back(points[i]);
+    }
     return take_up_scan(store_, objects,
                         {scan_, T_rest_lidar_, step_covariance_, seen_, nullptr, {}}, {});
   }
+  /// From now on scans see as far as that.
+  void see_as_far_as(double range_m) { seen_ = testing::wall_at(range_m); }
   [[nodiscard]] int id(int track) const { return store_.tracks[track].id; }
   [[nodiscard]] ObjectTrack& track(int index) { return store_.tracks[index]; }
   [[nodiscard]] std::size_t num_tracks() const { return store_.tracks.size(); }
@@ -67,6 +76,7 @@ TEST(Association, finds_a_mover_again_that_was_hidden_for_three_scans) {
   std::vector<int> seen;
   for (int scan = 0; scan < 4; ++scan) seen = street.show(0.1 * scan, {car_at(30 - 1.5 * scan, 5)});
   const int id = street.id(seen[0]);
+  street.see_as_far_as(5);
   for (int scan = 4; scan < 7; ++scan) street.show(0.1 * scan, {});
   EXPECT_EQ(street.id(street.show(0.7, {car_at(30 - 1.5 * 7, 5)})[0]), id);
 }
@@ -81,6 +91,37 @@ TEST(Association, finds_a_mover_again_of_which_a_sliver_comes_out_from_behind_an
   sliver.points.resize(1);
   sliver.length = 0.6;
   EXPECT_EQ(street.id(street.show(0.5, {sliver})[0]), id);
+}
+
+TEST(Association, takes_what_lies_on_it_for_a_part_of_it) {
+  const std::vector<Eigen::Vector3f> side{
+      {28, 5, -1}, {29, 5, 0}, {30, 5, -1}, {31, 5, 0}, {32, 5, -1}};
+  for (const bool lies_on_it : {true, false}) {
+    Street street;
+    std::vector<int> seen;
+    ScanObject car = car_at(30, 5);
+    car.centroid.z() = -1;
+    for (int scan = 0; scan < 4; ++scan) seen = street.show(0.1 * scan, {car}, side);
+    const int id = street.id(seen[0]);
+    ScanObject roof = car_at(31.5, 5);  // above something nearer
+    roof.points.resize(1);
+    roof.length = 0.3;
+    roof.centroid = {31.4, 5, lies_on_it ? 0.1 : 1.5};
+    EXPECT_EQ(street.id(street.show(0.4, {roof}, {roof.centroid.cast<float>()})[0]) == id,
+              lies_on_it);
+  }
+}
+
+TEST(Association, forgets_a_mover_that_scans_see_through_sooner_than_one_that_is_hidden) {
+  for (const bool is_open : {false, true}) {
+    Street street;
+    std::vector<int> seen;
+    for (int scan = 0; scan < 4; ++scan) seen = street.show(0.1 * scan, {car_at(30 - scan, 5)});
+    const int id = street.id(seen[0]);
+    street.see_as_far_as(is_open ? 50 : 5);
+    for (int scan = 4; scan < 8; ++scan) street.show(0.1 * scan, {});
+    EXPECT_EQ(street.id(street.show(0.8, {car_at(22, 5.5)})[0]) == id, !is_open);
+  }
 }
 
 TEST(Association, forgets_an_object_of_which_nothing_is_known_any_more) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "lidar_upsampling/registration/seen_space.h"
+#include "lidar_upsampling/units.h"
 
 namespace lidar_upsampling::testing {
 
@@ -36,6 +37,25 @@ inline SeenSpace street_with(const std::vector<Eigen::Vector3f>& object) {
       if (!is_hidden) points.push_back(far);
     }
   return {points, 0.4};
+}
+
+/// What a scan meets all around.
+/// @param range_of a direction that is 1 m level: level, m.
+template <typename Range>
+std::vector<Eigen::Vector3f> all_around(const Range& range_of) {
+  std::vector<Eigen::Vector3f> points;
+  for (double up_deg = -14; up_deg < 10; up_deg += 0.4)
+    for (double azimuth_deg = -180; azimuth_deg < 180; azimuth_deg += 0.2) {
+      const Eigen::Vector3d way(std::cos(azimuth_deg * kDegree), std::sin(azimuth_deg * kDegree),
+                                std::tan(up_deg * kDegree));
+      points.emplace_back((range_of(way) * way).template cast<float>());
+    }
+  return points;
+}
+
+/// A scan that meets a wall all around.
+inline SeenSpace wall_at(double range_m) {
+  return {all_around([&](const Eigen::Vector3d&) { return range_m; }), 0.4};
 }
 
 }  // namespace lidar_upsampling::testing

@@ -4,26 +4,19 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
+#include <memory>
 
 #include "lidar_upsampling/types.h"
-#include "lidar_upsampling/units.h"
+
+#include "tracks/vehicle_surface.h"
 
 namespace lidar_upsampling {
 namespace {
 
 constexpr double kSpeed_m_s = 10;
 
-/// A scan that meets a wall all around.
-std::shared_ptr<const SeenSpace> wall_at(float range_m) {
-  std::vector<Eigen::Vector3f> points;
-  for (double up_deg = -10; up_deg < 10; up_deg += 0.4)
-    for (double azimuth_deg = -180; azimuth_deg < 180; azimuth_deg += 0.2)
-      points.emplace_back(range_m * Eigen::Vector3d(std::cos(azimuth_deg * kDegree),
-                                                    std::sin(azimuth_deg * kDegree),
-                                                    std::tan(up_deg * kDegree))
-                                        .cast<float>());
-  return std::make_shared<const SeenSpace>(points, 0.4);
+std::shared_ptr<const SeenSpace> wall_at(double range_m) {
+  return std::make_shared<const SeenSpace>(testing::wall_at(range_m));
 }
 
 /// A car's side of 4 m, known since a second, of which the next scan shows three points.

@@ -4,20 +4,20 @@
 
 #include <tbb/parallel_for.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <map>
 
 #include "lidar_upsampling/objects/sides.h"
 #include "lidar_upsampling/registration/voxel_grid.h"
+#include "lidar_upsampling/tracks/hidden_part.h"
 #include "lidar_upsampling/tracks/log_odds.h"
 #include "lidar_upsampling/tracks/pieces.h"
 #include "lidar_upsampling/tracks/scan_factor.h"
 
 namespace lidar_upsampling {
 namespace {
-
-constexpr double kWorthAFit = 1e-3;  // of probability: each way costs a fit per image
 
 /// Whether the covariance no longer says where to look: it is as wide as 0.4 s after the first
 /// sight of an object that may go anywhere.
@@ -47,6 +47,13 @@ double heading_of(const ScanObject& object, const TrackedScan& scan) {
   return yaw_of_sides(points_at(scan.scan, object.points)) + std::atan2(R(1, 0), R(0, 0));
 }
 
+/// m, level.
+double extent_of(const std::vector<Eigen::Vector3f>& points) {
+  Eigen::AlignedBox3f bounds;
+  for (const Eigen::Vector3f& point : points) bounds.extend(point);
+  return bounds.sizes().head<2>().norm();
+}
+
 void see_anew(ObjectTrack& track, const ScanObject& object, std::shared_ptr<const Surface> surface,
               const TrackedScan& scan) {
   track.ahead.reset();
@@ -60,7 +67,22 @@ void see_anew(ObjectTrack& track, const ScanObject& object, std::shared_ptr<cons
   track.surface = std::move(surface);
   track.centroid_rest = scan.T_rest_lidar * object.centroid;
   track.length = object.length;
+  track.whole_length = std::max(object.length, extent_of(track.surface->points()));
+  track.is_seen = true;
+  track.num_missed = 0;
   track.size = static_cast<double>(object.points.size()) * object.centroid.squaredNorm();
+}
+
+/// An object does not shrink as something hides it.
+std::shared_ptr<const Surface> with_hidden_part(std::shared_ptr<const Surface> seen,
+                                                const ObjectTrack& track, const ScanLesson& lesson,
+                                                const ScanObject& object, const TrackedScan& scan) {
+  TrackState now = lesson.state;
+  if (lesson.log_odds <= 0) now.mean.head<3>().setZero();
+  std::vector<Eigen::Vector3f> points = hidden_part(track, now, object, scan);
+  if (points.empty()) return seen;
+  points.insert(points.end(), seen->points().begin(), seen->points().end());
+  return std::make_shared<const Surface>(std::move(points));
 }
 
 /// A new object, which may be a piece of one that moves and then moves as that does; else, if it
@@ -83,6 +105,20 @@ ObjectTrack new_track(const ScanObject& object, const TrackedScan& scan,
   track.state = track.beginnings.front().from;
   track.log_odds = log_odds_of(moves);
   return track;
+}
+
+/// Of what moves; what stands is where it was.
+void count_missed(TrackStore& store, const std::vector<int>& track_of, const TrackedScan& scan,
+                  const TrackOptions& options) {
+  std::vector<bool> is_seen(store.tracks.size(), false);
+  for (const int track : track_of)
+    if (track >= 0) is_seen[track] = true;
+  for (std::size_t i = 0; i < store.tracks.size(); ++i) {
+    ObjectTrack& track = store.tracks[i];
+    if (is_seen[i] || track.latest_log_odds <= 0) continue;
+    const TrackState now = predicted(track.latest, scan.scan.stamp, options.noise);
+    if (!is_hidden(scan.seen, points_by(track, now, scan.T_rest_lidar))) ++track.num_missed;
+  }
 }
 
 }  // namespace
@@ -108,6 +144,7 @@ std::vector<int> take_up_scan(TrackStore& store, std::vector<ScanObject>& object
   tracks.erase(std::remove_if(tracks.begin(), tracks.end(), lost), tracks.end());
   std::vector<int> track_of = associate(tracks, objects, scan, options);
   join_pieces(store, scan, options, objects, track_of);
+  count_missed(store, track_of, scan, options);
   constexpr double kFine_m = 0.1;  // nearer neighbours tell the noise of their ranges
   const std::size_t num_known = tracks.size();
   std::vector<std::shared_ptr<const Surface>> surfaces(objects.size());
@@ -117,6 +154,7 @@ std::vector<int> take_up_scan(TrackStore& store, std::vector<ScanObject>& object
     if (track_of[i] < 0) return;
     ObjectTrack& track = tracks[track_of[i]];
     const ScanLesson lesson = learn_from_scans(track, objects[i], *surfaces[i], scan, options);
+    surfaces[i] = with_hidden_part(surfaces[i], track, lesson, objects[i], scan);
     track.passage = Passage{lesson.from, lesson.state, lesson.surprises};
     track.state = from_here(lesson.state);
     track.beginnings.clear();
@@ -168,48 +206,14 @@ void go_on(ObjectTrack& track, TrackState now, const Pose& T_rest_lidar,
   track.log_odds = decayed(track.latest_log_odds, seconds_between(track.stamp, now.stamp), options);
   track.latest_log_odds = track.log_odds;
   track.stamp = now.stamp;
+  track.is_seen = false;
+  track.num_missed = 0;
   now.mean.head<3>().setZero();  // its covariance stays: that is how well its place is known
   track.state = track.latest = now;
   track.beginnings.clear();
   track.passage.reset();
   track.ahead.reset();
   track.settled.reset();
-}
-
-bool is_told_by_picture(const ObjectTrack& track, const TrackOptions& options) {
-  return options.image_factor && !track.ahead && track.latest.stamp != track.stamp;
-}
-
-std::vector<Course> courses_of(const ObjectTrack& track, const TrackOptions& options) {
-  const bool is_told = options.image_factor && track.latest.stamp != track.stamp;
-  if (!is_told && !track.beginnings.empty()) return track.beginnings;
-  const double wrong = options.outlier_share;
-  std::vector<Course> courses{{new_track_state(track.stamp, options.noise), wrong, true}};
-  courses.push_back({track.latest, 1 - (is_told ? 2 : 1) * wrong});
-  if (is_told) courses.push_back({track.state, wrong});
-  return courses;
-}
-
-std::vector<Course> courses_before_images(const ObjectTrack& track,
-                                          const Eigen::Vector2d& ego_velocity,
-                                          const MotionNoise& noise) {
-  if (track.beginnings.empty()) return {{track.state, 1}};
-  constexpr double kSlow_m_s = 4;  // of us: then others' speed may as well be another
-  constexpr double kAny_m_s = 2, kShareOfSpeed = 0.2;  // how much their speed differs from ours
-  const double speed = ego_velocity.norm();
-  const double share = speed * speed / (speed * speed + kSlow_m_s * kSlow_m_s) / 3;
-  std::vector<Course> courses = track.beginnings;
-  for (Course& course : courses) course.probability *= 1 - share;
-  if (share / 2 < kWorthAFit) return courses;
-  MotionNoise as_fast = noise;
-  as_fast.unknown_speed_sigma = kAny_m_s + kShareOfSpeed * speed;
-  TrackState traffic = going_along(new_track_state(track.stamp, noise),
-                                   std::atan2(ego_velocity.y(), ego_velocity.x()), as_fast);
-  for (const double way : {1., -1.}) {
-    traffic.mean.segment<2>(3) = way * ego_velocity;
-    courses.push_back({traffic, share / 2});
-  }
-  return courses;
 }
 
 TrackState ObjectTrack::expected_at(Stamp instant, const MotionNoise& noise) const {

@@ -79,10 +79,14 @@ struct ObjectTrack {
   std::string class_name;
   Stamp stamp;                             ///< of its last sight in a scan
   Pose T_rest_lidar = Pose::Identity();    ///< then
-  std::shared_ptr<const Surface> surface;  ///< its points, lidar frame then
+  std::shared_ptr<const Surface> surface;  ///< its points, lidar frame then; with those that an
+                                           ///< earlier sight has shown and something hides
   Eigen::Vector3d centroid_rest = Eigen::Vector3d::Zero();
   double size = 0;                 ///< what is seen of it: points times squared range, as an area
   double length = 0;               ///< m, of what is seen of it
+  double whole_length = 0;         ///< m, with what is hidden of it
+  bool is_seen = true;             ///< at `stamp`; else it is as predicted then
+  int num_missed = 0;              ///< scans since that do not show it, though nothing hides it
   TrackState state;                ///< at `stamp`
   double log_odds = 0;             ///< of moving, at `stamp`
   TrackState latest;               ///< with what the last image since then told
@@ -122,6 +126,9 @@ struct TrackedScan {
 [[nodiscard]] std::vector<Course> courses_before_images(const ObjectTrack& track,
                                                         const Eigen::Vector2d& ego_velocity,
                                                         const MotionNoise& noise);
+
+/// Of probability; each way costs a fit per image.
+constexpr double kWorthAFit = 1e-3;
 
 struct TrackStore {
   std::vector<ObjectTrack> tracks;

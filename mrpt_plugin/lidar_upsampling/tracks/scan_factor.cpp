@@ -44,7 +44,8 @@ TwoSights two_sights(const ObjectTrack& track, const Surface& surface, const Tra
   sights.scans.turn_sigma_rad = options.noise.unknown_yaw_rate_sigma * sights.dt;
   sights.scans.points_per_observation = options.points.points_per_observation;
   const double between = seconds_between(scan.stamp_before, scan.scan.stamp);
-  if (scan.seen_before != nullptr && std::abs(sights.dt - between) < 0.5 * sights.dt) {
+  if (track.is_seen && scan.seen_before != nullptr &&
+      std::abs(sights.dt - between) < 0.5 * sights.dt) {
     sights.scans.seen_before = scan.seen_before;
     sights.scans.seen_now = &scan.seen;
   }
@@ -56,8 +57,10 @@ TwoSights two_sights(const ObjectTrack& track, const Surface& surface, const Tra
 PlanarStep centroid_step(const ObjectTrack& track, const ScanObject& object,
                          const TrackedScan& scan, const TrackOptions& options) {
   constexpr double kLeast_m = 0.1, kTurn = 1;  // m, as for association; rad: it does not tell
+  constexpr double kCar_m = 4;                 // as long may be what was hidden before
+  const double whole = std::max({object.length, track.whole_length, track.is_seen ? 0 : kCar_m});
   const double sigma = std::hypot(kLeast_m + options.extent_error * object.length,
-                                  0.5 * (object.length - track.length));
+                                  0.5 * (whole - object.length), 0.5 * (whole - track.length));
   PlanarStep step;
   step.mean.head<2>() = (scan.T_rest_lidar * object.centroid - track.centroid_rest).head<2>();
   step.covariance.diagonal() << sigma * sigma, sigma * sigma, kTurn * kTurn;
@@ -154,7 +157,8 @@ class StepLikelihoods {
 PlanarStep measured_step(const ObjectTrack& track, const ScanObject& object,
                          const TwoSights& sights, const TrackedScan& scan,
                          const TrackOptions& options) {
-  const auto registered = registered_step(sights.scans, scan.T_rest_lidar.linear());
+  std::optional<PlanarStep> registered;
+  if (track.is_seen) registered = registered_step(sights.scans, scan.T_rest_lidar.linear());
   PlanarStep step = registered ? *registered : centroid_step(track, object, scan, options);
   join_ends(track, sights, scan, object.length - track.length, step);
   const Eigen::Vector2d along = step.mean.head<2>();
