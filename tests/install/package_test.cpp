@@ -8,21 +8,14 @@ namespace {
 
 bool has(const std::string& program) { return run("command -v " + program).status == 0; }
 
+/// Of packages that ctest has packed before, once for all of these tests.
 class DebianPackage : public ::testing::Test {
  protected:
   void SetUp() override {
     if (!has("dpkg-shlibdeps")) GTEST_SKIP() << "dpkg-dev is not installed";
   }
-  /// @param components those to pack, as each takes its time.
-  void pack(const std::string& components) {
-    text_of("cd " + folder_.path().string() +
-            " && cpack -G DEB -B . --config " BUILD_FOLDER
-            "/CPackConfig.cmake -D CPACK_DEBIAN_COMPRESSION_TYPE=gzip"
-            " -D CPACK_COMPONENTS_ALL=" +
-            components);
-  }
   [[nodiscard]] std::string file(const std::string& name) const {
-    for (const auto& entry : std::filesystem::directory_iterator(folder_.path()))
+    for (const auto& entry : std::filesystem::directory_iterator(PACKAGES_FOLDER))
       if (entry.path().filename().string().rfind(name + "_", 0) == 0) return entry.path().string();
     return name + ", which is not there";
   }
@@ -39,7 +32,6 @@ class DebianPackage : public ::testing::Test {
 };
 
 TEST_F(DebianPackage, needs_the_libraries_that_it_uses_and_holds_what_runs) {
-  pack("runtime");
   const std::string depends = field("lidar-upsampling", "Depends");
   for (const char* library :
        {"libmrpt-obs", "libopencv-core", "libtbb", "libc6", "libgeographiclib"})
@@ -54,7 +46,6 @@ TEST_F(DebianPackage, needs_the_libraries_that_it_uses_and_holds_what_runs) {
 }
 
 TEST_F(DebianPackage, for_developers_holds_library_and_headers) {
-  pack("development");
   EXPECT_TRUE(contains(field("liblidar-upsampling-dev", "Depends"), "libmrpt-obs-dev"));
   const std::string listed = contents("liblidar-upsampling-dev");
   for (const char* path :
@@ -74,7 +65,6 @@ TEST_F(DebianPackage, is_left_in_the_build_folder_not_where_cpack_is_called) {
 }
 
 TEST_F(DebianPackage, tells_what_is_new) {
-  pack("'runtime;development'");
   for (const char* const name : {"lidar-upsampling", "liblidar-upsampling-dev"}) {
     text_of("dpkg-deb --extract " + file(name) + " " + folder(name));
     text_of("gunzip --stdout " + folder(name) + "/usr/share/doc/" + name + "/changelog.gz > " +
@@ -86,7 +76,6 @@ TEST_F(DebianPackage, tells_what_is_new) {
 }
 
 TEST_F(DebianPackage, runs_from_where_it_is_unpacked) {
-  pack("runtime");
   text_of("dpkg-deb --extract " + file("lidar-upsampling") + " " + folder("root"));
   const std::string usr = folder("root/usr/");
   text_of(usr + "bin/rawlog-simulate --scenario " + usr +
@@ -101,7 +90,6 @@ TEST_F(DebianPackage, runs_from_where_it_is_unpacked) {
 
 TEST_F(DebianPackage, has_no_error_that_lintian_knows) {
   if (!has("lintian")) GTEST_SKIP() << "lintian is not installed";
-  pack("'runtime;development'");
   const ToolResult found = run("lintian --allow-root --fail-on none " + file("lidar-upsampling") +
                                " " + file("liblidar-upsampling-dev"));
   EXPECT_FALSE(contains("\n" + found.text, "\nE: ")) << found.text;
