@@ -139,6 +139,8 @@ std::optional<Registration> iterate(const std::vector<Eigen::Vector3f>& source,
     return std::nullopt;
   }
   result.covariance = *covariance;
+  const Eigen::Vector3d way = result.T_target_source.translation().normalized();
+  result.hold = way.dot(sum.H.bottomRightCorner<3, 3>() * way) / sum.num_matches;
   return result;
 }
 
