@@ -10,13 +10,7 @@ namespace lidar_upsampling {
 
 StraightScans::StraightScans(const SweepOptions& sweep, const std::vector<Stamp>& stamps,
                              const Truth* truth)
-    : sweep_(sweep), turn_s_(1e-3 * sweep.period_ms), truth_(truth) {
-  if (turn_s_ > 0) return;
-  for (std::size_t i = 1; i < stamps.size(); ++i) {
-    const double between_s = seconds_between(stamps[i - 1], stamps[i]);
-    if (between_s > 0 && (turn_s_ <= 0 || between_s < turn_s_)) turn_s_ = between_s;
-  }
-}
+    : sweep_(sweep), turn_s_(turn_s(sweep, stamps)), truth_(truth) {}
 
 void StraightScans::straighten(LidarScan& scan, const std::vector<float>& times) const {
   deskew(scan, times, [&](double time) -> Pose {

@@ -94,7 +94,6 @@ class LidarUpsampler {
   [[nodiscard]] std::vector<Eigen::Vector3f> standing_points(const PreparedScan& before) const;
   void step_between_scans(const PreparedScan& before, PreparedScan& now);
   // Real scans (upsampler_scans.cpp).
-  [[nodiscard]] double turn_s() const;
   void straighten(LidarScan& scan, const std::vector<float>& times, const Twist& rate) const;
   [[nodiscard]] std::unique_ptr<PreparedScan> prepared(LidarScan scan, const PreparedScan* before);
   void take_up(const Picture* anchor);

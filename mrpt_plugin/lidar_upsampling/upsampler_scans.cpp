@@ -96,16 +96,6 @@ std::vector<ScanObject> objects_of_boxes(const PreparedScan& prepared, const Cam
 
 }  // namespace
 
-double LidarUpsampler::turn_s() const {
-  if (config_.sweep.period_ms > 0) return 1e-3 * config_.sweep.period_ms;
-  double shortest_s = scan_period_s_;
-  for (std::size_t i = 1; i < expected_scans_.size(); ++i) {
-    const double between_s = seconds_between(expected_scans_[i - 1], expected_scans_[i]);
-    if (between_s > 0 && (shortest_s <= 0 || between_s < shortest_s)) shortest_s = between_s;
-  }
-  return shortest_s;
-}
-
 void LidarUpsampler::straighten(LidarScan& scan, const std::vector<float>& times,
                                 const Twist& rate) const {
   deskew(scan, times, [&](double time) {
@@ -117,7 +107,8 @@ void LidarUpsampler::straighten(LidarScan& scan, const std::vector<float>& times
 
 std::unique_ptr<PreparedScan> LidarUpsampler::prepared(LidarScan scan, const PreparedScan* before) {
   auto result = std::make_unique<PreparedScan>();
-  const std::vector<float> times = point_times(scan, config_.sweep, turn_s());
+  const std::vector<float> times =
+      point_times(scan, config_.sweep, turn_s(config_.sweep, expected_scans_, scan_period_s_));
   const auto as_measured = times.empty() ? std::vector<Eigen::Vector3f>{} : scan.points;
   straighten(scan, times, before != nullptr ? before->motion.rate : Twist(Twist::Zero()));
   result->scan = std::move(scan);

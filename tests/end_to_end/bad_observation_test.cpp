@@ -17,7 +17,7 @@ TEST_P(OneBadObservation, passes_through_as_it_came_is_not_used_and_is_counted) 
   write_hand_made(folder / "in.rawlog", log);
   const auto entries = spoilt(read_log(folder / "in.rawlog"), bad);
   write_entries(folder / "in.rawlog", entries);
-  for (const std::string options : {"", "--set mode=offline", "--set resample=none"}) {
+  for (const std::string options : {"", "--set mode=offline --set resample=none"}) {
     const ToolResult result =
         run(densify_command(folder / "in.rawlog", folder / "out.rawlog",
                             options + " --overwrite --pictures " + folder / "pictures"));

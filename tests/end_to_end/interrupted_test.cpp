@@ -97,7 +97,7 @@ class Interrupted {
 TEST(Interrupted, densifying_leaves_the_old_files_or_the_new_ones_and_no_others) {
   const TestFolder folder;
   HandMadeLog log;
-  log.num_images = log.num_instants = 60;
+  log.num_images = log.num_instants = 24;
   write_hand_made(folder / "in.rawlog", log);
   Interrupted(folder, densify_command(folder / "in.rawlog", folder / "out.rawlog",
                                       "--overwrite --report " + folder / "out.json" +
@@ -118,7 +118,7 @@ TEST(Interrupted, parts_of_a_log_likewise) {
 TEST(Interrupted, thinning_and_exporting_likewise) {
   const TestFolder folder;
   HandMadeLog log;
-  log.num_images = log.num_instants = 120;
+  log.num_images = log.num_instants = 40;
   write_hand_made(folder / "in.rawlog", log);
   Interrupted(folder, std::string(RAWLOG_DECIMATE) + " --input " + folder / "in.rawlog" +
                           " --output " + folder / "out.rawlog" +

@@ -92,6 +92,18 @@ TEST(Sweep, times_that_most_points_lack_are_not_taken_by_default) {
   EXPECT_EQ(point_times(scan, {}, kPeriod_s), (std::vector<float>{0.01F, 0.02F}));
 }
 
+TEST(Sweep, a_turn_takes_the_shortest_time_between_two_scans_if_no_setting_tells) {
+  const Stamp start = shifted(Stamp{}, 1e6);
+  const std::vector<Stamp> scans{start, shifted(start, 0.2), shifted(start, 0.3),
+                                 shifted(start, 0.3), shifted(start, 0.5)};
+  SweepOptions options;
+  EXPECT_NEAR(turn_s(options, scans), 0.1, 1e-9);
+  EXPECT_NEAR(turn_s(options, scans, 0.05), 0.05, 1e-9);
+  EXPECT_EQ(turn_s(options, {start}), 0);
+  options.period_ms = 50;
+  EXPECT_NEAR(turn_s(options, scans), 0.05, 1e-9);
+}
+
 TEST(Sweep, scans_too_far_apart_for_a_turn_tell_no_times) {
   EXPECT_FALSE(point_times(scan_of({0, 90}), by_azimuth(), 1).empty());
   constexpr double kYear_s = 3e7;

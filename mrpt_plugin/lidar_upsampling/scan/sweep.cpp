@@ -82,6 +82,16 @@ std::vector<float> point_times(const LidarScan& scan, const SweepOptions& option
   return scan.time_s;
 }
 
+double turn_s(const SweepOptions& options, const std::vector<Stamp>& scans, double at_most) {
+  if (options.period_ms > 0) return 1e-3 * options.period_ms;
+  double shortest_s = at_most;
+  for (std::size_t i = 1; i < scans.size(); ++i) {
+    const double between_s = seconds_between(scans[i - 1], scans[i]);
+    if (between_s > 0 && (shortest_s <= 0 || between_s < shortest_s)) shortest_s = between_s;
+  }
+  return shortest_s;
+}
+
 void deskew(LidarScan& scan, const std::vector<float>& times, const LidarPath& path) {
   if (times.empty()) return;
   constexpr double kStep_s = 0.002;

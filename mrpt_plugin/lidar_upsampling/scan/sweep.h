@@ -42,6 +42,12 @@ std::size_t drop_points_without_time(LidarScan& scan, const SweepOptions& option
 [[nodiscard]] std::vector<float> point_times(const LidarScan& scan, const SweepOptions& options,
                                              double period_s);
 
+/// @brief Of one turn, s: as the options tell, or the shortest time between two scans.
+/// @param at_most that long, s; 0: nothing is known of it.
+/// @return 0: not known.
+[[nodiscard]] double turn_s(const SweepOptions& options, const std::vector<Stamp>& scans,
+                            double at_most = 0);
+
 /// T_lidar_k_lidar: where the lidar was this many seconds after the scan's stamp.
 using LidarPath = std::function<Pose(double)>;
 
