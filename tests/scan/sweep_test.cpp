@@ -121,6 +121,7 @@ TEST(Sweep, the_points_own_times_are_taken_and_missing_ones_are_an_error) {
 
 TEST(Sweep, points_measured_under_way_are_put_where_the_world_has_them) {
   std::vector<double> azimuths;
+  azimuths.reserve(720);
   for (int i = 0; i < 720; ++i) azimuths.push_back(179.75 - 0.5 * i);
   const LidarScan truth = scan_of(azimuths);
   const auto times = point_times(truth, by_azimuth(), kPeriod_s);
