@@ -148,6 +148,9 @@ std::vector<int> take_up_scan(TrackStore& store, std::vector<ScanObject>& object
 /// How far an object's points lie from where they are predicted, m: another scan meets others.
 constexpr float kReach_m = 0.3F;
 
+/// As long may any object be, at least, whatever has been seen of it, m.
+constexpr double kCar_m = 4;
+
 /// Whether it moves, by all that is known, for certain enough to be told so.
 [[nodiscard]] bool is_mover(const ObjectTrack& track, const TrackOptions& options);
 

@@ -62,7 +62,6 @@ double gap_between(const ScanObject& object, const std::vector<Eigen::Vector3f>&
 double piece_density(const ScanObject& object, const ObjectTrack& track, const TrackedScan& scan,
                      const TrackOptions& options) {
   constexpr double kGap_m = 0.7;  // between pieces
-  constexpr double kCar_m = 4;    // as long is any, at least, whatever is seen of it
   const TrackState now = predicted(track.latest, scan.scan.stamp, options.noise);
   if (are_parted(track, object) || is_far(track, now, object, scan.T_rest_lidar)) return 0;
   const double gap =

@@ -57,7 +57,6 @@ TwoSights two_sights(const ObjectTrack& track, const Surface& surface, const Tra
 PlanarStep centroid_step(const ObjectTrack& track, const ScanObject& object,
                          const TrackedScan& scan, const TrackOptions& options) {
   constexpr double kLeast_m = 0.1, kTurn = 1;  // m, as for association; rad: it does not tell
-  constexpr double kCar_m = 4;                 // as long may be what was hidden before
   const double whole = std::max({object.length, track.whole_length, track.is_seen ? 0 : kCar_m});
   const double sigma = std::hypot(kLeast_m + options.extent_error * object.length,
                                   0.5 * (whole - object.length), 0.5 * (whole - track.length));
