@@ -42,11 +42,6 @@ void map_large_blocks() {
 #endif
 }
 
-int code_for(const std::string& path) {
-  return fs::path(path).extension() == ".avi" ? cv::VideoWriter::fourcc('M', 'J', 'P', 'G')
-                                              : cv::VideoWriter::fourcc('a', 'v', 'c', '1');
-}
-
 }  // namespace
 
 Film::Film(std::string path) : path_(std::move(path)) {
@@ -55,6 +50,7 @@ Film::Film(std::string path) : path_(std::move(path)) {
     throw std::runtime_error(path_ + ": a film ends in .mp4, .avi or .mkv");
   unfinished_ = std::make_unique<TemporaryName>(path_, ending);
   map_large_blocks();
+  writer_ = load_film_writer();
 }
 
 void Film::real_scan(const LidarScan& scan) {
@@ -120,24 +116,25 @@ void Film::add(Stamp stamp, const BirdScene& scene, const cv::Mat& camera) {
 }
 
 void Film::write(Stamp stamp) {
-  if (!writer_.isOpened() && !waiting_) {
+  if (!is_open_ && !waiting_) {
     waiting_ = {stamp, frame_.clone()};
     return;
   }
-  if (!writer_.isOpened()) {
+  if (!is_open_) {
     const double interval_s = seconds_between(waiting_->stamp, stamp);
     const double rate = std::clamp(1 / (kSlower * std::max(1e-3, interval_s)), 1., 60.);
-    if (!writer_.open(unfinished_->path(), code_for(path_), rate, frame_.size()))
+    is_open_ = writer_->open(unfinished_->path(), rate, frame_.size());
+    if (!is_open_)
       throw std::runtime_error(path_ + ": OpenCV cannot write a film of this kind; try .avi");
-    writer_.write(waiting_->picture);
+    writer_->write(waiting_->picture);
     waiting_.reset();
   }
-  writer_.write(frame_);
+  writer_->write(frame_);
 }
 
 bool Film::finish() {
-  if (!writer_.isOpened()) return false;
-  writer_.release();
+  if (!is_open_) return false;
+  writer_->close();
   // A copy, as the encoder does not tell of what a full disk did not take.
   // Opened first: the output removes temporary names that nobody has locked.
   std::ifstream encoded(unfinished_->path(), std::ios::binary);

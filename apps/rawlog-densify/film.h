@@ -4,12 +4,12 @@
 
 #include <deque>
 #include <memory>
-#include <opencv2/videoio.hpp>
 #include <optional>
 #include <string>
 
 #include "bird_view.h"
 #include "drawing.h"
+#include "film_writer.h"
 #include "lidar_upsampling/io/temporary_names.h"
 #include "lidar_upsampling/types.h"
 
@@ -21,7 +21,7 @@ namespace lidar_upsampling {
 class Film {
  public:
   /// @param path .mp4, .avi or .mkv; it appears when the film is finished.
-  /// @throw std::runtime_error another ending.
+  /// @throw std::runtime_error another ending, or load_film_writer().
   explicit Film(std::string path);
 
   void real_scan(const LidarScan& scan);
@@ -44,7 +44,8 @@ class Film {
 
   std::string path_;
   std::unique_ptr<TemporaryName> unfinished_;
-  cv::VideoWriter writer_;
+  std::unique_ptr<FilmWriter> writer_;
+  bool is_open_ = false;
   cv::Mat frame_;                 ///< the one being drawn
   std::optional<Frame> waiting_;  ///< the first, until the second tells the rate
   std::deque<CameraImage> images_;

@@ -47,6 +47,15 @@ TEST_F(Install, a_scenario_that_comes_along_is_found_by_its_name) {
   EXPECT_TRUE(std::filesystem::exists(folder / "in.rawlog"));
 }
 
+TEST_F(Install, a_film_is_made_by_a_library_that_nobody_else_waits_for) {
+  const TestFolder folder;
+  text_of("cd " + folder.path().string() + " && " + path("bin/rawlog-simulate") +
+          " --scenario small --duration 0.3 --output in.rawlog && " + path("bin/rawlog-densify") +
+          " --input in.rawlog --output out.rawlog --film film.avi");
+  EXPECT_TRUE(std::filesystem::exists(folder / "film.avi"));
+  EXPECT_FALSE(contains(text_of("ldd " + path("bin/rawlog-densify")), "videoio"));
+}
+
 TEST_F(Install, every_tool_has_a_man_page_that_lists_its_options) {
   for (const std::string& tool : tool_names()) {
     const std::string page =
