@@ -8,8 +8,9 @@
 
 namespace lidar_upsampling {
 
-/// @brief What encodes a film. It is a library of its own, loaded when a film is asked for: OpenCV's
-/// video module brings a hundred others along, and all who start rawlog-densify would wait for them.
+/// @brief What encodes a film. It is a library of its own, loaded when a film is asked for:
+/// OpenCV's video module brings a hundred others along, and all who start rawlog-densify would wait
+/// for them.
 class FilmWriter {
  public:
   FilmWriter() = default;

@@ -76,9 +76,9 @@ class Timed {
 /// and image.
 [[nodiscard]] nlohmann::json to_json(const DensifyReport& report);
 
-/// The rows of its objects in view, one by one.
+/// The rows of its objects, one by one: those in view, then the others.
 void for_each_object(const DensifyReport& report,
-                     const std::function<void(const nlohmann::json& row)>& use);
+                     const std::function<void(const nlohmann::json& row, bool in_view)>& use);
 
 /// @brief The same as text, in memory that does not grow with the log.
 void write_json(const DensifyReport& report, std::ostream& out);

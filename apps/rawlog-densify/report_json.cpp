@@ -144,8 +144,9 @@ nlohmann::json to_json(const DensifyReport& report) {
 }
 
 void for_each_object(const DensifyReport& report,
-                     const std::function<void(const nlohmann::json& row)>& use) {
-  for_each_row(report, kInView, use);
+                     const std::function<void(const nlohmann::json& row, bool in_view)>& use) {
+  for_each_row(report, kInView, [&](const nlohmann::json& row) { use(row, true); });
+  for_each_row(report, kOutOfView, [&](const nlohmann::json& row) { use(row, false); });
 }
 
 void write_json(const DensifyReport& report, std::ostream& out) {

@@ -159,11 +159,16 @@ class Walk {
     result_.labels[Row::constant_velocity] = labels_->score(labels_->constant_velocity());
     if (paper_) {
       std::vector<ReportedObject> told;
-      for_each_object(paper_report_,
-                      [&](const nlohmann::json& row) { told.push_back(reported_object(row)); });
+      for_each_object(paper_report_, [&](const nlohmann::json& row, bool in_view) {
+        told.push_back(reported_object(row, in_view));
+      });
       result_.labels[Row::paper] = labels_->score(told);
     }
-    if (job_.report != nullptr) result_.labels[Row::ours] = labels_->score(job_.report->objects);
+    if (job_.report != nullptr) {
+      std::vector<ReportedObject> told = job_.report->objects;
+      told.insert(told.end(), job_.report->out_of_view.begin(), job_.report->out_of_view.end());
+      result_.labels[Row::ours] = labels_->score(told);
+    }
   }
 
   void judge(Waiting& waiting, std::optional<LidarScan> paper) {

@@ -72,6 +72,7 @@ void judge_instant(const LabelledInstant& instant, const RowsAt& rows,
   for (const LabelledBox& box : instant.boxes) {
     const ReportedObject* mine = nullptr;
     for (auto row = first; row != last; ++row) {
+      if (!row->second->in_view && !box.counts) continue;
       if (!inside(box, at_key(*row->second, instant), options.grown_m)) continue;
       claimed.insert(row->second);
       if (mine == nullptr || row->second->points > mine->points) mine = row->second;
@@ -80,8 +81,8 @@ void judge_instant(const LabelledInstant& instant, const RowsAt& rows,
     follow(box, mine, tracks, score);
   }
   for (auto row = first; row != last; ++row)
-    if (row->second->moving && claimed.count(row->second) == 0 &&
-        !is_ignored(*row->second, instant, options.ignored_px))
+    if (row->second->moving && (row->second->in_view || options.all_around) &&
+        claimed.count(row->second) == 0 && !is_ignored(*row->second, instant, options.ignored_px))
       score.false_shifts_m.push_back(row->second->velocity.norm() * instant.dt);
   ++score.num_images;
 }

@@ -4,6 +4,7 @@
 
 #include <tbb/parallel_for.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 
 #include "lidar_upsampling/tracks/hypotheses.h"
@@ -36,18 +37,39 @@ Appearance appearance_of(const Camera& camera, const Pose& T_vehicle_lidar,
   return result;
 }
 
-// On the picture that shows most of it, if any does. Of what is hidden, where it would be.
-Appearance shown(const std::vector<const Camera*>& cameras, const LidarScan& scan,
-                 const ObjectMotion& motion, const ObjectTrack& track) {
-  const std::vector<Eigen::Vector3f> points =
-      motion.points.empty() ? track.surface->points() : points_at(scan, motion.points);
+// Of the box around them, in the axes of the lidar frame.
+std::vector<Eigen::Vector3f> corners_around(const std::vector<Eigen::Vector3f>& points) {
+  Eigen::AlignedBox3f box;
+  for (const Eigen::Vector3f& point : points) box.extend(point);
+  std::vector<Eigen::Vector3f> corners;
+  for (int i = 0; i < 8; ++i)
+    corners.push_back(box.corner(static_cast<Eigen::AlignedBox3f::CornerType>(i)));
+  return corners;
+}
+
+Appearance most_of(const std::vector<const Camera*>& cameras, const Pose& T_vehicle_lidar,
+                   const std::vector<Eigen::Vector3f>& points, const Pose& T_lidar_t_lidar_k) {
   Appearance best;
   for (const Camera* camera : cameras) {
-    const Appearance here =
-        appearance_of(*camera, scan.T_vehicle_lidar, points, motion.T_lidar_t_lidar_k);
+    const Appearance here = appearance_of(*camera, T_vehicle_lidar, points, T_lidar_t_lidar_k);
     if (here.num_points > best.num_points) best = here;
   }
   return best.num_points > 0 ? best : Appearance{};
+}
+
+// On the picture that shows most of it, if any does: one of those that told, or else of the rig. Of
+// what is hidden, where it would be. A picture may show of an object what the scan has not met:
+// then a corner of it tells.
+Appearance shown(const std::vector<const Camera*>& told, const std::vector<const Camera*>& rig,
+                 const LidarScan& scan, const ObjectMotion& motion, const ObjectTrack& track) {
+  const std::vector<Eigen::Vector3f> points =
+      motion.points.empty() ? track.surface->points() : points_at(scan, motion.points);
+  const auto look = [&](const auto& cameras, const std::vector<Eigen::Vector3f>& places) {
+    return most_of(cameras, scan.T_vehicle_lidar, places, motion.T_lidar_t_lidar_k);
+  };
+  Appearance result = look(told, points);
+  if (result.camera == nullptr) result = look(rig, points);
+  return result.camera != nullptr ? result : look(rig, corners_around(points));
 }
 
 std::vector<const Camera*> cameras_of(const std::vector<ImageResult>& group) {
@@ -156,8 +178,7 @@ std::vector<ObjectMotion> estimate_motions(const std::vector<ImageResult>& group
     motion.num_tracked = answer.num_found;
     motion.status = status_of(answer, motion.num_tracked, config);
     motion.track_id = track.id;
-    Appearance on_picture = shown(in_group, key.scan, motion, track);
-    if (on_picture.camera == nullptr) on_picture = shown(rig, key.scan, motion, track);
+    const Appearance on_picture = shown(in_group, rig, key.scan, motion, track);
     if (on_picture.camera == nullptr) return;
     motion.camera_label = on_picture.camera->label;
     motion.box = on_picture.box;

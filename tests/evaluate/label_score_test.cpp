@@ -132,6 +132,24 @@ TEST(LabelScore, a_box_out_of_view_takes_its_rows_but_does_not_count) {
   EXPECT_TRUE(score.false_shifts_m.empty());
 }
 
+TEST(LabelScore, a_box_in_view_takes_a_row_whose_points_are_not) {
+  ReportedObject row = told({20, 0, 0}, {14, 0, 0});
+  row.in_view = false;
+  const LabelScore score = score_of(car_at(14), {row});
+  ASSERT_EQ(score.movers.size(), 1U);
+  EXPECT_TRUE(score.movers[0].found);
+  EXPECT_NEAR(score.movers[0].error_m, 0, 1e-9);
+}
+
+TEST(LabelScore, what_is_told_out_of_view_counts_there_as_labels_do) {
+  ReportedObject wall = told({20, 9, 0}, {3, 0, 0});
+  wall.in_view = false;
+  EXPECT_TRUE(score_of(car_at(14), {wall}).false_shifts_m.empty());
+  LabelScoreOptions all_around;
+  all_around.all_around = true;
+  EXPECT_EQ(score_labels({car_at(14)}, {wall}, all_around).false_shifts_m.size(), 1U);
+}
+
 TEST(LabelScore, another_track_on_the_same_object_is_a_switch) {
   ReportedObject later = told({20, 0, 0}, {14, 0, 0});
   later.stamp = 8;

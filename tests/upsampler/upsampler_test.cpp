@@ -12,43 +12,10 @@
 #include <string>
 #include <utility>
 
-#include "street_run.h"
+#include "street_objects.h"
 
 namespace lidar_upsampling {
 namespace {
-
-std::vector<const ObjectMotion*> moving_objects(const VirtualScan& scan) {
-  std::vector<const ObjectMotion*> moving;
-  for (const ObjectMotion& object : scan.objects)
-    if (object.status == MotionStatus::moving) moving.push_back(&object);
-  return moving;
-}
-
-Stamp street_begin() { return sim::stamps_of(10, 0, 0.01).front(); }
-
-/// The world object that moves so fast along the street.
-int car_at_velocity(const StreetRun& street, double v) {
-  constexpr double kWithin = 0.5;
-  for (int i = 0; i < static_cast<int>(street.world.objects.size()); ++i) {
-    if (!street.world.objects[i].moves()) continue;
-    const Eigen::Vector3d then = street.world.T_world_object(i, 0.1).translation();
-    const double here = (then - street.world.T_world_object(i, 0).translation()).x() / 0.1;
-    if (std::abs(here - v) < kWithin) return i;
-  }
-  return -1;
-}
-
-/// What is told of the object that most of a world object's points belong to; null: nothing.
-const ObjectMotion* motion_of(const StreetRun& street, const VirtualScan& scan, int object) {
-  const std::vector<int> owner = street.scan_at(scan.key_stamp).object;
-  const auto told =
-      std::find_if(scan.objects.begin(), scan.objects.end(), [&](const ObjectMotion& motion) {
-        const auto own = std::count_if(motion.points.begin(), motion.points.end(),
-                                       [&](int i) { return owner[i] == object; });
-        return own > 0.5 * static_cast<double>(std::count(owner.begin(), owner.end(), object));
-      });
-  return told == scan.objects.end() ? nullptr : &*told;
-}
 
 void expect_close_to_truth(const StreetRun& street, const std::vector<VirtualScan>& scans,
                            double standing, double moving) {
@@ -220,84 +187,6 @@ TEST(LidarUpsampler, lens_distortion_is_taken_into_account) {
       "0 0\n");
   LidarUpsampler upsampler{moving_points()};
   expect_close_to_truth(street, street.run(upsampler), 0.02, 0.1);
-}
-
-TEST(LidarUpsampler, two_cameras_make_one_virtual_scan_per_instant) {
-  StreetRun street(
-      "[camera.REAR]\nwidth = 621\nheight = 188\nfx = 360\nrate_hz = 30\norientation_deg = 180 0 "
-      "0\n"
-      "[vehicle.behind]\nx_m = -16\ny_m = -1.7\nspeed_mps = 12\n");
-  LidarUpsampler upsampler{moving_points()};
-  upsampler.expect_cameras({"CAM0", "REAR"});
-  const auto scans = street.run(upsampler);
-  ASSERT_EQ(scans.size(), 10U);
-  bool seen_behind = false;
-  for (const ObjectMotion* object : moving_objects(scans.back()))
-    if (object->camera_label == "REAR" && std::abs(object->velocity_lidar_k.x() - 12) < 1.5)
-      seen_behind = true;
-  EXPECT_TRUE(seen_behind);
-}
-
-TEST(LidarUpsampler, images_of_one_instant_make_one_virtual_scan_when_all_are_there) {
-  StreetRun street(std::string(kSmallRig) +
-                   "[scenario]\nduration_s = 0.2\n[camera.LEFT]\nwidth = 414\nheight = 125\n"
-                   "fx = 240\nrate_hz = 30\norientation_deg = 80 0 0\n"
-                   "[vehicle.passing]\nx_m = 8\ny_m = 2.6\nyaw_deg = 180\nspeed_mps = 11\n");
-  LidarUpsampler upsampler{moving_points()};
-  upsampler.expect_cameras({"CAM0", "LEFT"});
-  const auto scans = street.run(upsampler);
-  ASSERT_EQ(scans.size(), 4U);
-  std::set<std::string> cameras;
-  for (const VirtualScan& scan : scans)
-    for (const ObjectMotion& object : scan.objects) cameras.insert(object.camera_label);
-  EXPECT_EQ(cameras.count("CAM0") + cameras.count("LEFT"), 2U);
-}
-
-TEST(LidarUpsampler, a_car_stays_one_track_and_in_place_from_one_camera_to_the_next) {
-  StreetRun street(
-      "[camera.LEFT]\nwidth = 621\nheight = 188\nfx = 360\nrate_hz = 30\norientation_deg = 80 0 "
-      "0\n"
-      "[vehicle.passing]\nx_m = 14\ny_m = 2.6\nyaw_deg = 180\nspeed_mps = 11\n");
-  LidarUpsampler upsampler{moving_points()};
-  upsampler.expect_cameras({"CAM0", "LEFT"});
-  const int car = car_at_velocity(street, -11);
-  std::set<std::string> cameras;
-  std::set<int> tracks;
-  for (const VirtualScan& scan : street.run(upsampler)) {
-    if (scan.key_stamp < shifted(street_begin(), 0.15)) continue;  // two scans show how it moves
-    const ObjectMotion* told = motion_of(street, scan, car);
-    ASSERT_NE(told, nullptr);
-    cameras.insert(told->camera_label);
-    tracks.insert(told->track_id);
-    const Pose truth = street.true_motion(car, scan.key_stamp, scan.scan.stamp);
-    const Eigen::Vector3d& centroid = told->centroid_lidar_k;
-    EXPECT_LT((told->T_lidar_t_lidar_k * centroid - truth * centroid).norm(), 0.05);
-  }
-  EXPECT_EQ(cameras, (std::set<std::string>{"CAM0", "LEFT"}));
-  EXPECT_EQ(tracks.size(), 1U);
-}
-
-TEST(LidarUpsampler, two_cameras_that_shutter_by_turns_both_know_of_a_car) {
-  StreetRun street(
-      "[scenario]\nduration_s = 0.2\n[camera.REAR]\nwidth = 414\nheight = 125\nfx = 240\n"
-      "rate_hz = 30\nphase_s = 0.017\norientation_deg = 180 0 0\n");
-  LidarUpsampler upsampler{moving_points()};
-  upsampler.expect_cameras({"CAM0", "REAR"});
-  const int car = car_at_velocity(street, 11);
-  const auto behind = sim::stamps_of(30, 0.017, 0.2);
-  int num_behind = 0;
-  for (const VirtualScan& scan : street.run(upsampler)) {
-    if (scan.scan.stamp < shifted(street_begin(), 0.03))
-      continue;  // no picture of it has been taken
-    num_behind += static_cast<int>(std::count(behind.begin(), behind.end(), scan.scan.stamp));
-    const ObjectMotion* told = motion_of(street, scan, car);
-    ASSERT_NE(told, nullptr);
-    EXPECT_EQ(told->camera_label, "CAM0");
-    const Pose truth = street.true_motion(car, scan.key_stamp, scan.scan.stamp);
-    const Eigen::Vector3d& centroid = told->centroid_lidar_k;
-    EXPECT_LT((told->T_lidar_t_lidar_k * centroid - truth * centroid).norm(), 0.3);
-  }
-  EXPECT_GE(num_behind, 3);
 }
 
 TEST(LidarUpsampler, a_turn_that_smoothed_fixes_cut_moves_nothing_that_stands) {

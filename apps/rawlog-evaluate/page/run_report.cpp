@@ -60,8 +60,9 @@ std::vector<TrackFigures> tracks_of(const Json& rows) {
 
 }  // namespace
 
-ReportedObject reported_object(const Json& row) {
+ReportedObject reported_object(const Json& row, bool in_view) {
   ReportedObject object;
+  object.in_view = in_view;
   object.stamp = row.at("stamp").get<std::int64_t>();
   object.status = row.at("status").get<std::string>();
   object.track = row.at("track").get<int>();
@@ -101,6 +102,8 @@ RunReport report_of(const Json& json) {
                              stage.at("total_ms").get<double>()});
   report.tracks = tracks_of(json.at("objects"));
   for (const Json& row : json.at("objects")) report.objects.push_back(reported_object(row));
+  for (const Json& row : json.at("objects_out_of_view"))
+    report.out_of_view.push_back(reported_object(row, false));
   return report;
 }
 

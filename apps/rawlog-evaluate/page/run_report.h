@@ -39,6 +39,7 @@ struct ReportedObject {
   int track = -1;                                        ///< -1: not tracked
   int points = 0;                                        ///< of the key scan
   bool moving = false;                                   ///< told to move
+  bool in_view = true;                                   ///< on the picture of a camera
   Eigen::Vector3d position = Eigen::Vector3d::Zero();    ///< of its centroid, lidar frame, m
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();    ///< over ground, lidar frame, m/s
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< m^2; zero: not known
@@ -56,13 +57,13 @@ struct RunReport {
   std::vector<StageFigures> stages;
   std::map<std::string, int> object_status, warnings;
   std::vector<TrackFigures> tracks;  ///< by id
-  std::vector<ReportedObject> objects;
+  std::vector<ReportedObject> objects, out_of_view;
 };
 
 /// @throw std::runtime_error the file cannot be read, or is no such report.
 [[nodiscard]] RunReport load_run_report(const std::string& path);
 
 /// Of a report's row.
-[[nodiscard]] ReportedObject reported_object(const nlohmann::json& row);
+[[nodiscard]] ReportedObject reported_object(const nlohmann::json& row, bool in_view = true);
 
 }  // namespace lidar_upsampling
