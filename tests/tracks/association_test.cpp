@@ -162,5 +162,22 @@ TEST(Association, goes_on_as_scans_have_shown_where_pictures_told_another_way) {
   EXPECT_NEAR(street.track(after[0]).state.velocity().y(), 0, 1.5);
 }
 
+TEST(Association, sees_by_scans_what_moves_where_all_pictures_hold_it_for_standing) {
+  Street street;
+  std::vector<int> seen;
+  for (int scan = 0; scan < 8; ++scan) {
+    seen = street.show(0.1 * scan, {car_at(30 - 0.8 * scan, 5)});
+    ObjectTrack& track = street.track(seen[0]);
+    track.latest = track.state;
+    track.latest.stamp = shifted(track.stamp, 0.05);
+    track.latest.mean.setZero();
+    track.latest.covariance.setIdentity();
+    track.latest.covariance *= 0.01;
+    track.latest_log_odds = track.log_odds - 0.3;
+  }
+  EXPECT_GT(street.track(seen[0]).log_odds, 0);
+  EXPECT_NEAR(street.track(seen[0]).state.velocity().x(), -8, 2);
+}
+
 }  // namespace
 }  // namespace lidar_upsampling

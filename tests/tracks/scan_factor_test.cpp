@@ -37,7 +37,7 @@ ScanLesson lesson_of(float rear_before, float rear_now, double ego_m = 0) {
   track.surface = std::make_shared<const Surface>(before);
   track.centroid_rest = mean_of(before);
   track.length = kLength_m;
-  track.state = track.latest = new_track_state(kStart, options.noise);
+  track.state = track.by_scans = track.latest = new_track_state(kStart, options.noise);
   track.log_odds = track.latest_log_odds = prior_log_odds(options);
   LidarScan scan;
   scan.stamp = shifted(kStart, 0.1);

@@ -5,6 +5,26 @@
 #include "lidar_upsampling/tracks/object_tracks.h"
 
 namespace lidar_upsampling {
+namespace {
+
+/// Probability that images have not told of it: a velocity so far from what scans tell is rather of
+/// what stands around it, or of anything.
+double doubt_of_images(const ObjectTrack& track, const TrackOptions& options) {
+  const auto covariance_of = [](const TrackState& state) {
+    return Eigen::Matrix2d(state.covariance.block<2, 2>(3, 3));
+  };
+  const TrackState by_scans = predicted(track.by_scans, track.latest.stamp, options.noise);
+  const Eigen::Vector2d told = track.latest.velocity();
+  const Eigen::Matrix2d P = covariance_of(track.latest);
+  const Eigen::Matrix2d any =
+      std::pow(options.noise.unknown_speed_sigma, 2) * Eigen::Matrix2d::Identity();
+  const double right = gaussian_density(told - by_scans.velocity(), P + covariance_of(by_scans));
+  const double wrong = (gaussian_density(told, P) + gaussian_density(told, P + any)) / 2;
+  const double share = options.outlier_share;
+  return right > 0 ? share * wrong / (share * wrong + (1 - share) * right) : 1;
+}
+
+}  // namespace
 
 bool is_told_by_picture(const ObjectTrack& track, const TrackOptions& options) {
   return options.image_factor && !track.ahead && track.latest.stamp != track.stamp;
@@ -14,10 +34,10 @@ std::vector<Course> courses_of(const ObjectTrack& track, const TrackOptions& opt
   const bool is_told = options.image_factor && track.latest.stamp != track.stamp;
   if (!is_told && !track.beginnings.empty()) return track.beginnings;
   const double wrong = options.outlier_share;
-  std::vector<Course> courses{{new_track_state(track.stamp, options.noise), wrong, true}};
-  courses.push_back({track.latest, 1 - (is_told ? 2 : 1) * wrong});
-  if (is_told) courses.push_back({track.state, wrong});
-  return courses;
+  const double doubt = options.image_factor ? doubt_of_images(track, options) : 0;
+  return {{new_track_state(track.stamp, options.noise), wrong, true},
+          {track.latest, (1 - wrong) * (1 - doubt)},
+          {track.by_scans, (1 - wrong) * doubt}};
 }
 
 std::vector<Course> courses_before_images(const ObjectTrack& track,

@@ -102,7 +102,7 @@ ObjectTrack new_track(const ScanObject& object, const TrackedScan& scan,
     track.beginnings.insert(
         2 * as_piece > alone ? track.beginnings.begin() : track.beginnings.end(),
         {whole.state, as_piece});
-  track.state = track.beginnings.front().from;
+  track.state = track.by_scans = track.beginnings.front().from;
   track.log_odds = log_odds_of(moves);
   return track;
 }
@@ -157,6 +157,7 @@ std::vector<int> take_up_scan(TrackStore& store, std::vector<ScanObject>& object
     surfaces[i] = with_hidden_part(surfaces[i], track, lesson, objects[i], scan);
     track.passage = Passage{lesson.from, lesson.state, lesson.surprises};
     track.state = from_here(lesson.state);
+    track.by_scans = from_here(lesson.by_scans);
     track.beginnings.clear();
     track.log_odds = lesson.log_odds;
     see_anew(track, objects[i], surfaces[i], scan);
@@ -209,7 +210,7 @@ void go_on(ObjectTrack& track, TrackState now, const Pose& T_rest_lidar,
   track.is_seen = false;
   track.num_missed = 0;
   now.mean.head<3>().setZero();  // its covariance stays: that is how well its place is known
-  track.state = track.latest = now;
+  track.state = track.by_scans = track.latest = now;
   track.beginnings.clear();
   track.passage.reset();
   track.ahead.reset();

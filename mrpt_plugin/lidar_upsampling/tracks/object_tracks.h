@@ -89,6 +89,7 @@ struct ObjectTrack {
   int num_missed = 0;              ///< scans since that do not show it, though nothing hides it
   TrackState state;                ///< at `stamp`
   double log_odds = 0;             ///< of moving, at `stamp`
+  TrackState by_scans;             ///< at `stamp`, as scans alone tell
   TrackState latest;               ///< with what the last image since then told
   double latest_log_odds = 0;      ///< likewise
   std::vector<Course> beginnings;  ///< of a new one, at `stamp`, the likeliest first
@@ -116,8 +117,9 @@ struct TrackedScan {
 /// better.
 [[nodiscard]] bool is_told_by_picture(const ObjectTrack& track, const TrackOptions& options);
 
-/// @brief As images have told since, as known before (they may be wrong), or any (that may be,
-/// too); as long as nothing has told: its beginnings. The probabilities sum to one.
+/// @brief As images have told, as scans alone tell (images may be wrong, and all in the same way),
+/// or any (scans may be, too); as long as nothing has told: its beginnings. The probabilities sum
+/// to one.
 [[nodiscard]] std::vector<Course> courses_of(const ObjectTrack& track, const TrackOptions& options);
 
 /// @brief Of what images have not told yet, all true: a new object's beginnings, among which it

@@ -217,13 +217,18 @@ ScanLesson learn_from_scans(const ObjectTrack& track, const ScanObject& object,
   ScanLesson lesson;
   lesson.from = options.image_factor ? track.latest : track.state;
   lesson.state = predicted(lesson.from, instant, options.noise);
+  lesson.by_scans = predicted(track.by_scans, instant, options.noise);
   lesson.log_odds = decayed(options.image_factor ? track.latest_log_odds : track.log_odds,
                             seconds_between(track.stamp, instant), options);
   if (!options.scan_factor) return lesson;
   const TwoSights sights = two_sights(track, surface, scan, lesson.state, options);
   const PlanarStep step = measured_step(track, object, sights, scan, options);
   const double locked = density_of_locked(track, sights.faces_now, step, scan.T_rest_lidar);
-  if (judge_step(track, step, locked, options, lesson)) lesson.state = updated(lesson.state, step);
+  if (judge_step(track, step, locked, options, lesson)) {
+    if (lesson.surprises) lesson.by_scans = lesson.state;
+    lesson.state = updated(lesson.state, step);
+    lesson.by_scans = updated(lesson.by_scans, step);
+  }
   return lesson;
 }
 

@@ -10,6 +10,7 @@ namespace lidar_upsampling {
 struct ScanLesson {
   TrackState from;         ///< at the first one, as it was taken
   TrackState state;        ///< at the second one; its step since the first
+  TrackState by_scans;     ///< at the second one, if images have told of something else
   double log_odds = 0;     ///< of moving
   bool surprises = false;  ///< what was known at the first one cannot have been: it is forgotten
 };
