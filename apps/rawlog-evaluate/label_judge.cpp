@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace lidar_upsampling {
 
@@ -12,6 +13,21 @@ namespace {
 // A virtual scan this near to a real one that the log still holds has nothing withheld to be judged
 // by: people's labels are those of the scans.
 constexpr double kAtRealScan_s = 0.015;
+
+/// Objects whose middle is out of view, of which labels in view tell.
+std::vector<int> labelled_beyond(const std::vector<ObjectReference>& objects,
+                                 const std::vector<int>& seen, const LabelledInstant& instant,
+                                 double grown) {
+  std::vector<int> which;
+  for (int i = 0; i < static_cast<int>(objects.size()); ++i) {
+    if (std::binary_search(seen.begin(), seen.end(), i)) continue;
+    const auto is_of = [&](const LabelledBox& box) {
+      return box.counts && holds(box, objects[i].motion.centroid_k, grown);
+    };
+    if (std::any_of(instant.boxes.begin(), instant.boxes.end(), is_of)) which.push_back(i);
+  }
+  return which;
+}
 
 }  // namespace
 
@@ -46,9 +62,15 @@ void LabelJudge::note(Stamp stamp, Stamp told_at) {
   instant->told_at = told_at.time_since_epoch().count();
   const Pose T_ego = instant->T_lidar_k_lidar_t.inverse();
   const auto seen = in_scope(clusters_, *key_, T_ego, cameras_, options_);
-  if (last_motions_ != nullptr) last_motions_->find(clusters_, seen, *key_);
-  const auto rows = constant_velocity_rows(clusters_, seen, T_ego, instant->dt, instant->told_at);
-  constant_velocity_.insert(constant_velocity_.end(), rows.begin(), rows.end());
+  const auto beyond = labelled_beyond(clusters_, seen, *instant, options_.labels.grown_m);
+  for (const auto* which : {&seen, &beyond}) {
+    if (last_motions_ != nullptr) last_motions_->find(clusters_, *which, *key_);
+    for (ReportedObject& row :
+         constant_velocity_rows(clusters_, *which, T_ego, instant->dt, instant->told_at)) {
+      row.in_view = which == &seen;
+      constant_velocity_.push_back(std::move(row));
+    }
+  }
   instants_.push_back(std::move(*instant));
 }
 

@@ -14,10 +14,6 @@ namespace {
 using RowsAt = std::multimap<std::int64_t, const ReportedObject*>;
 using TracksOf = std::map<std::string, int>;  // the last track of each labelled object
 
-bool inside(const LabelledBox& box, const Eigen::Vector3d& point_k, double grown) {
-  return ((box.T_box_lidar * point_k).array().abs() < 0.5 * box.size.array() + grown).all();
-}
-
 Eigen::Vector3d at_key(const ReportedObject& row, const LabelledInstant& instant) {
   return instant.T_lidar_k_lidar_t * (row.position - instant.dt * row.velocity);
 }
@@ -73,7 +69,7 @@ void judge_instant(const LabelledInstant& instant, const RowsAt& rows,
     const ReportedObject* mine = nullptr;
     for (auto row = first; row != last; ++row) {
       if (!row->second->in_view && !box.counts) continue;
-      if (!inside(box, at_key(*row->second, instant), options.grown_m)) continue;
+      if (!holds(box, at_key(*row->second, instant), options.grown_m)) continue;
       claimed.insert(row->second);
       if (mine == nullptr || row->second->points > mine->points) mine = row->second;
     }
@@ -111,7 +107,7 @@ bool is_hit(const LabelledBox& box, const LidarScan& key, int min_points) {
   int count = 0;
   for (const Eigen::Vector3f& point_f : key.points) {
     const Eigen::Vector3d point = point_f.cast<double>();
-    if ((point - centre).squaredNorm() > reach_sq || !inside(box, point, 0)) continue;
+    if ((point - centre).squaredNorm() > reach_sq || !holds(box, point, 0)) continue;
     if (++count >= min_points) return true;
   }
   return count >= min_points;
@@ -152,6 +148,10 @@ void add_ignored(const Truth& truth, const std::vector<Camera>& cameras, Stamp s
 }
 
 }  // namespace
+
+bool holds(const LabelledBox& box, const Eigen::Vector3d& point_k, double grown) {
+  return ((box.T_box_lidar * point_k).array().abs() < 0.5 * box.size.array() + grown).all();
+}
 
 std::optional<LabelledInstant> labelled_instant(const Truth& truth, const LidarScan& key,
                                                 Stamp stamp, const std::vector<Camera>& cameras,

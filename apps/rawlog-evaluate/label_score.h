@@ -68,6 +68,9 @@ struct LabelScore {
   int num_followed = 0, num_switches = 0;  ///< objects with a row; changes of their tracks
 };
 
+/// @param point_k lidar frame at the key scan. @param grown m, by which the box is larger.
+[[nodiscard]] bool holds(const LabelledBox& box, const Eigen::Vector3d& point_k, double grown);
+
 /// @brief The labelled objects at an instant.
 /// @param cameras for the view and for the ignored areas.
 /// @return none where the labels or the poses do not reach.
