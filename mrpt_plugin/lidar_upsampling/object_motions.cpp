@@ -42,6 +42,7 @@ std::vector<Eigen::Vector3f> corners_around(const std::vector<Eigen::Vector3f>& 
   Eigen::AlignedBox3f box;
   for (const Eigen::Vector3f& point : points) box.extend(point);
   std::vector<Eigen::Vector3f> corners;
+  corners.reserve(8);
   for (int i = 0; i < 8; ++i)
     corners.push_back(box.corner(static_cast<Eigen::AlignedBox3f::CornerType>(i)));
   return corners;
@@ -74,6 +75,7 @@ Appearance shown(const std::vector<const Camera*>& told, const std::vector<const
 
 std::vector<const Camera*> cameras_of(const std::vector<ImageResult>& group) {
   std::vector<const Camera*> cameras;
+  cameras.reserve(group.size());
   for (const ImageResult& result : group) cameras.push_back(&result.camera);
   return cameras;
 }
