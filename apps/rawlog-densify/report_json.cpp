@@ -40,6 +40,12 @@ nlohmann::json covariance_json(const Eigen::Matrix3d& c) {
   return {c(0, 0), c(0, 1), c(0, 2), c(1, 1), c(1, 2), c(2, 2)};
 }
 
+/// Over ground, lidar frame at the image.
+Eigen::Vector3d velocity_at_image(const ObjectMotion& object) {
+  const Pose T_ego = object.T_lidar_t_lidar_k * object.T_mov.inverse();
+  return T_ego.linear() * object.velocity_lidar_k;
+}
+
 nlohmann::json row_json(const ReportRow& row) {
   const ObjectMotion& object = row.object;
   nlohmann::json json{
@@ -56,7 +62,7 @@ nlohmann::json row_json(const ReportRow& row) {
       {"position_sigma_m", position_sigma(object)},
       {"position_covariance_m2", covariance_json(position_uncertainty(object))},
       {"position_m", vector_json(object.T_lidar_t_lidar_k * object.centroid_lidar_k)},
-      {"velocity_m_s", vector_json(object.velocity_lidar_k)},
+      {"velocity_m_s", vector_json(velocity_at_image(object))},
       {"yaw_rate_rad_s", object.yaw_rate},
       {"box_px", {object.box.left, object.box.top, object.box.right, object.box.bottom}},
       {"moving", moves(object)},
@@ -98,7 +104,7 @@ nlohmann::json head_json(const DensifyReport& report) {
       {"stages", nlohmann::json::array()},
       {"frames",
        {{"position_m", "LiDAR at the image"},
-        {"velocity_m_s", "LiDAR at the key scan, over ground"},
+        {"velocity_m_s", "LiDAR at the image, over ground"},
         {"clusters_left_static", "LiDAR at the key scan"}}},
       {"objects", nlohmann::json::array()},
       {"objects_out_of_view", nlohmann::json::array()},

@@ -74,6 +74,28 @@ TEST(Report, as_a_stream_is_the_document_byte_for_byte) {
   }
 }
 
+TEST(Report, tells_place_and_velocity_in_the_frame_at_the_image_so_that_one_takes_the_other_back) {
+  const TestFolder folder;
+  DensifyReport report;
+  report.rows = std::make_shared<ReportRows>(folder / "report.json");
+  const Pose T_ego(Eigen::AngleAxisd(0.2, Eigen::Vector3d::UnitZ()));  // the vehicle turns
+  ReportRow row = row_of(1);
+  row.object.centroid_lidar_k << 10, -3, 1;
+  row.object.velocity_lidar_k << 8, 1, 0;
+  row.object.T_mov.translation() = 0.1 * row.object.velocity_lidar_k;
+  row.object.T_lidar_t_lidar_k = T_ego * row.object.T_mov;
+  report.rows->add(row);
+
+  const auto told = to_json(report)["objects"][0];
+  Eigen::Vector3d position, velocity;
+  for (int i = 0; i < 3; ++i) {
+    position[i] = told["position_m"][i].get<double>();
+    velocity[i] = told["velocity_m_s"][i].get<double>();
+  }
+  EXPECT_TRUE((position - 0.1 * velocity).isApprox(T_ego * row.object.centroid_lidar_k, 1e-9));
+  EXPECT_NEAR(velocity.norm(), row.object.velocity_lidar_k.norm(), 1e-9);
+}
+
 TEST(Report, warnings_of_a_kind_are_one_with_a_count_and_the_first_one) {
   DensifyReport report;
   for (const char* file : {"a.png", "b.png", "c.png"}) report.warn("an image was left out", file);
