@@ -74,12 +74,56 @@ TEST(Report, as_a_stream_is_the_document_byte_for_byte) {
   }
 }
 
+Eigen::Vector3d vector_of(const nlohmann::json& json) {
+  return {json[0].get<double>(), json[1].get<double>(), json[2].get<double>()};
+}
+
+// Rear and right side of a car, 10 m ahead.
+VirtualScan car_that_turns(double yaw_rate, double speed, double dt) {
+  VirtualScan scan;
+  ObjectMotion object;
+  for (int i = 0; i <= 40; ++i)
+    for (const float height : {-1.5F, -0.5F}) {
+      scan.scan.points.emplace_back(10.F, 2 - 0.04F * static_cast<float>(i), height);
+      scan.scan.points.emplace_back(10 + 0.1F * static_cast<float>(i), 0.4F, height);
+    }
+  for (int i = 0; i < static_cast<int>(scan.scan.size()); ++i) {
+    object.points.push_back(i);
+    scan.source_index.push_back(i);
+  }
+  object.track_id = 1;
+  object.camera_label = "CAM";
+  object.status = MotionStatus::moving;
+  object.centroid_lidar_k = mean_of(scan.scan.points);
+  object.yaw_rate = yaw_rate;
+  // Its middle goes straight ahead.
+  const Eigen::Vector3d middle(12, 1.2, -1);
+  const Eigen::Vector3d arm = object.centroid_lidar_k - middle;
+  object.velocity_lidar_k =
+      speed * Eigen::Vector3d::UnitX() + yaw_rate * Eigen::Vector3d::UnitZ().cross(arm);
+  scan.scan.stamp = shifted(scan.key_stamp, dt);
+  scan.objects.push_back(object);
+  return scan;
+}
+
+TEST(Report, tells_of_a_car_that_turns_how_its_middle_goes_as_labels_do) {
+  const TestFolder folder;
+  DensifyReport report;
+  report.rows = std::make_shared<ReportRows>(folder / "report.json");
+  report.add(car_that_turns(0.8, 6, 0.05));
+  const auto told = to_json(report)["objects"][0];
+  EXPECT_LT((vector_of(told["position_m"]) - Eigen::Vector3d(12, 1.2, -1)).norm(), 0.3);
+  EXPECT_LT((vector_of(told["velocity_m_s"]) - Eigen::Vector3d(6, 0, 0)).norm(), 0.25);
+  // What is seen of it has its middle elsewhere, and goes another way.
+  EXPECT_GT((vector_of(told["centroid_m"]) - Eigen::Vector3d(12, 1.2, -1)).norm(), 0.8);
+}
+
 TEST(Report, tells_place_and_velocity_in_the_frame_at_the_image_so_that_one_takes_the_other_back) {
   const TestFolder folder;
   DensifyReport report;
   report.rows = std::make_shared<ReportRows>(folder / "report.json");
   const Pose T_ego(Eigen::AngleAxisd(0.2, Eigen::Vector3d::UnitZ()));  // the vehicle turns
-  ReportRow row = row_of(1);
+  ReportRow row = row_of(1);                                           // without a box
   row.object.centroid_lidar_k << 10, -3, 1;
   row.object.velocity_lidar_k << 8, 1, 0;
   row.object.T_mov.translation() = 0.1 * row.object.velocity_lidar_k;
@@ -87,11 +131,8 @@ TEST(Report, tells_place_and_velocity_in_the_frame_at_the_image_so_that_one_take
   report.rows->add(row);
 
   const auto told = to_json(report)["objects"][0];
-  Eigen::Vector3d position, velocity;
-  for (int i = 0; i < 3; ++i) {
-    position[i] = told["position_m"][i].get<double>();
-    velocity[i] = told["velocity_m_s"][i].get<double>();
-  }
+  const Eigen::Vector3d position = vector_of(told["position_m"]);
+  const Eigen::Vector3d velocity = vector_of(told["velocity_m_s"]);
   EXPECT_TRUE((position - 0.1 * velocity).isApprox(T_ego * row.object.centroid_lidar_k, 1e-9));
   EXPECT_NEAR(velocity.norm(), row.object.velocity_lidar_k.norm(), 1e-9);
 }

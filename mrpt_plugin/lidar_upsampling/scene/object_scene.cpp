@@ -54,6 +54,12 @@ void fit(ObjectBox& box, const Points& points) {
   box.size = extent.sizes();
 }
 
+/// By how much the box's middle goes faster than the object's centroid.
+Eigen::Vector3d by_turn(const ObjectMotion& object, const ObjectBox& box) {
+  const Eigen::Vector3d centroid = object.T_lidar_t_lidar_k * object.centroid_lidar_k;
+  return object.yaw_rate * Eigen::Vector3d::UnitZ().cross(box.T_lidar_box.translation() - centroid);
+}
+
 using mrpt::img::TColor;
 using mrpt::math::TPoint3D;
 using mrpt::opengl::CSetOfObjects;
@@ -118,6 +124,7 @@ std::vector<ObjectBox> object_boxes(const VirtualScan& scan) {
     box.moving = moves(object);
     if (box.moving) box.velocity = scan.T_lidar_t_lidar_k.linear() * object.velocity_lidar_k;
     fit(box, points);
+    if (box.moving) box.velocity += by_turn(object, box);
     boxes.push_back(std::move(box));
   }
   return boxes;

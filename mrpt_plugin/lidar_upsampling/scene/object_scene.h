@@ -20,7 +20,8 @@ struct ObjectBox {
   bool moving = false;
   Pose T_lidar_box = Pose::Identity();                 ///< centre, +X along `size.x()`
   Eigen::Vector3d size = Eigen::Vector3d::Zero();      ///< m
-  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  ///< lidar frame, over ground, m/s
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  ///< of the centre, lidar frame, over
+                                                       ///< ground, m/s
 };
 
 /// @brief The boxes of a virtual scan's objects at the image's instant: along the velocity of what
