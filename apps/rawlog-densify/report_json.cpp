@@ -40,18 +40,8 @@ nlohmann::json covariance_json(const Eigen::Matrix3d& c) {
   return {c(0, 0), c(0, 1), c(0, 2), c(1, 1), c(1, 2), c(2, 2)};
 }
 
-/// Lidar frame at the image.
-Eigen::Vector3d centroid_of(const ObjectMotion& object) {
-  return object.T_lidar_t_lidar_k * object.centroid_lidar_k;
-}
-
-/// Of its middle, as far as it is seen: of a car that turns, what happens to be seen of it goes
-/// another way. Lidar frame at the image.
-Eigen::Vector3d position_of(const ReportRow& row) {
-  return row.box ? row.box->T_lidar_box.translation() : centroid_of(row.object);
-}
-
-/// Over ground, of the same place.
+/// Of the middle of what is seen of it: of a car that turns, the points' centroid goes another way.
+/// Over ground, lidar frame at the image.
 Eigen::Vector3d velocity_of(const ReportRow& row) {
   if (row.box) return row.box->velocity;
   const ObjectMotion& object = row.object;
@@ -74,9 +64,8 @@ nlohmann::json row_json(const ReportRow& row) {
       {"rmse_px", object.rmse_px},
       {"position_sigma_m", position_sigma(object)},
       {"position_covariance_m2", covariance_json(position_uncertainty(object))},
-      {"position_m", vector_json(position_of(row))},
+      {"position_m", vector_json(object.T_lidar_t_lidar_k * object.centroid_lidar_k)},
       {"velocity_m_s", vector_json(velocity_of(row))},
-      {"centroid_m", vector_json(centroid_of(object))},
       {"yaw_rate_rad_s", object.yaw_rate},
       {"box_px", {object.box.left, object.box.top, object.box.right, object.box.bottom}},
       {"moving", moves(object)},
@@ -118,8 +107,7 @@ nlohmann::json head_json(const DensifyReport& report) {
       {"stages", nlohmann::json::array()},
       {"frames",
        {{"position_m", "LiDAR at the image"},
-        {"centroid_m", "LiDAR at the image"},
-        {"velocity_m_s", "LiDAR at the image, over ground"},
+        {"velocity_m_s", "LiDAR at the image, over ground, of the middle of the box"},
         {"clusters_left_static", "LiDAR at the key scan"}}},
       {"objects", nlohmann::json::array()},
       {"objects_out_of_view", nlohmann::json::array()},

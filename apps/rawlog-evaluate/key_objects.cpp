@@ -141,7 +141,7 @@ std::vector<ReportedObject> constant_velocity_rows(const std::vector<ObjectRefer
     row.points = static_cast<int>(object.points.size());
     row.moving = is_moving(step, Pose::Identity(), dt_last);
     const Eigen::Vector3d moved = exp_se3(Twist(dt * per_second)) * centre;
-    row.position = T_ego * moved;
+    row.position = row.middle = T_ego * moved;
     row.velocity = T_ego.linear() * (moved - centre) / dt;
     rows.push_back(row);
   }

@@ -14,8 +14,10 @@ namespace {
 using RowsAt = std::multimap<std::int64_t, const ReportedObject*>;
 using TracksOf = std::map<std::string, int>;  // the last track of each labelled object
 
-Eigen::Vector3d at_key(const ReportedObject& row, const LabelledInstant& instant) {
-  return instant.T_lidar_k_lidar_t * (row.position - instant.dt * row.velocity);
+/// @param place of it, at the instant.
+Eigen::Vector3d at_key(const Eigen::Vector3d& place, const ReportedObject& row,
+                       const LabelledInstant& instant) {
+  return instant.T_lidar_k_lidar_t * (place - instant.dt * row.velocity);
 }
 
 bool is_ignored(const ReportedObject& row, const LabelledInstant& instant, double grown) {
@@ -28,13 +30,13 @@ bool is_ignored(const ReportedObject& row, const LabelledInstant& instant, doubl
   });
 }
 
-/// Of the labelled object at the row's place on it; without a row, at its centre.
+/// Of the labelled object at the place on it that the row tells of; without a row, at its centre.
 Eigen::Vector3d true_velocity(const LabelledBox& box, const ReportedObject* row,
                               const LabelledInstant& instant) {
   if (row == nullptr) return box.velocity;
   const Eigen::Vector3d centre_k = box.T_box_lidar.inverse().translation();
-  const Eigen::Vector3d arm =
-      instant.T_lidar_k_lidar_t.linear().transpose() * (at_key(*row, instant) - centre_k);
+  const Eigen::Vector3d arm = instant.T_lidar_k_lidar_t.linear().transpose() *
+                              (at_key(row->middle, *row, instant) - centre_k);
   return box.velocity + box.yaw_rate * Eigen::Vector3d::UnitZ().cross(arm);
 }
 
@@ -69,7 +71,8 @@ void judge_instant(const LabelledInstant& instant, const RowsAt& rows,
     const ReportedObject* mine = nullptr;
     for (auto row = first; row != last; ++row) {
       if (!row->second->in_view && !box.counts) continue;
-      if (!holds(box, at_key(*row->second, instant), options.grown_m)) continue;
+      if (!holds(box, at_key(row->second->position, *row->second, instant), options.grown_m))
+        continue;
       claimed.insert(row->second);
       if (mine == nullptr || row->second->points > mine->points) mine = row->second;
     }

@@ -24,9 +24,9 @@ const ReportedObject* reported(const ScanResult& scan, const Eigen::Vector3d& pl
   const ReportedObject* nearest = nullptr;
   for (auto row = first; row != last; ++row)
     if (nearest == nullptr ||
-        (row->second->centroid - place).norm() < (nearest->centroid - place).norm())
+        (row->second->position - place).norm() < (nearest->position - place).norm())
       nearest = row->second;
-  const bool same = nearest != nullptr && (nearest->centroid - place).norm() < kSamePlace_m;
+  const bool same = nearest != nullptr && (nearest->position - place).norm() < kSamePlace_m;
   return same ? nearest : nullptr;
 }
 

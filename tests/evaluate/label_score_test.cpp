@@ -36,7 +36,7 @@ ReportedObject told(const Eigen::Vector3d& at_key, const Eigen::Vector3d& veloci
   row.points = 100;
   row.moving = moving;
   row.velocity = velocity;
-  row.position = at_key + kHorizon_s * velocity;
+  row.position = row.middle = at_key + kHorizon_s * velocity;
   return row;
 }
 

@@ -34,8 +34,7 @@ Case objects_that_err(double factor, bool has_truth = true) {
     ReportedObject row;
     row.stamp = 1000 + i;
     row.status = "moving";
-    row.position = {11, 2, -1};  // of its middle; the covariance is of its points' centroid
-    row.centroid = {10, 2, -1};
+    row.position = {10, 2, -1};
     row.covariance = kSigma * kSigma * Eigen::Matrix3d::Identity();
     row.sigma = kSigma;
     made.report.objects.push_back(row);

@@ -72,8 +72,10 @@ ReportedObject reported_object(const Json& row, bool in_view) {
   for (int i = 0; i < 3; ++i) {
     object.position[i] = row.at("position_m").at(i).get<double>();
     object.velocity[i] = row.at("velocity_m_s").at(i).get<double>();
-    object.centroid[i] = row.at("centroid_m").at(i).get<double>();
   }
+  object.middle = object.position;
+  if (const auto box = row.find("box"); box != row.end())
+    for (int i = 0; i < 3; ++i) object.middle[i] = box->at("pose").at(i).get<double>();
   const auto c = row.at("position_covariance_m2").get<std::array<double, 6>>();
   object.covariance << c[0], c[1], c[2], c[1], c[3], c[4], c[2], c[4], c[5];
   return object;

@@ -40,10 +40,10 @@ struct ReportedObject {
   int points = 0;                                        ///< of the key scan
   bool moving = false;                                   ///< told to move
   bool in_view = true;                                   ///< on the picture of a camera
-  Eigen::Vector3d position = Eigen::Vector3d::Zero();    ///< of its middle, lidar frame, m
-  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();    ///< likewise, over ground, m/s
-  Eigen::Vector3d centroid = Eigen::Vector3d::Zero();    ///< of its points, lidar frame, m
-  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< likewise, m^2; zero: not known
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();    ///< of its centroid, lidar frame, m
+  Eigen::Vector3d middle = Eigen::Vector3d::Zero();      ///< of its box, lidar frame, m
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();    ///< there, over ground, lidar frame, m/s
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< of the centroid, m^2; zero: not known
   double sigma = 0;                                      ///< m, worst direction
 };
 
