@@ -174,7 +174,7 @@ std::vector<ObjectMotion> estimate_motions(const std::vector<ImageResult>& group
                                   object.centroid,          key.T_rest_lidar.linear(),
                                   newest.camera.model.fx,   sights.num_followed};
     const MotionAnswer answer = answer_for(track, sights, question, config);
-    if (!track.settled) note_answer(track, answer);
+    if (!track.settled) note_answer(track, answer, config.object_tracks.noise);
     ObjectMotion& motion = motions[i];
     motion = make_motion(answer, object, newest.ego.T_to_from, dt);
     motion.num_tracked = answer.num_found;

@@ -174,11 +174,49 @@ TEST(Hypotheses, a_mover_goes_on_where_no_camera_sees_it_ever_less_certainly) {
 TEST(Hypotheses, what_one_picture_tells_goes_on_where_the_next_one_says_nothing) {
   ObjectTrack track = new_track();
   const Twist step = to_the_side(0.3);
-  note_answer(track, estimate_motion(track, picture_of(step), question_after(0.05), {step}, {}));
+  note_answer(track, estimate_motion(track, picture_of(step), question_after(0.05), {step}, {}),
+              {});
   const MotionAnswer answer = estimate_motion(track, {}, question_after(0.1), {}, {});
   EXPECT_FALSE(answer.is_seen);
   EXPECT_TRUE(answer.moves);
   EXPECT_NEAR(answer.moving.mean[4], 0.6, 0.1);
+}
+
+TEST(Hypotheses, a_picture_of_few_points_is_read_by_what_the_one_before_told) {
+  const auto error = [](const ObjectTrack& track) {
+    const Twist later = to_the_side(1);
+    ImageFactor image = picture_of(later, 2);
+    image.observations.resize(6);
+    for (std::size_t i = 0; i < 3; ++i) image.observations[i].normalised.x() += 0.02;  // astray
+    const MotionAnswer answer = estimate_motion(track, image, question_after(0.2, 60), {later}, {});
+    EXPECT_TRUE(answer.moves);
+    return (answer.moving.mean - later).norm();
+  };
+  ObjectTrack track = new_track();
+  track.log_odds = 3;
+  const double alone = error(track);
+  const Twist step = to_the_side(0.5);
+  note_answer(track, estimate_motion(track, picture_of(step), question_after(0.1), {step}, {}), {});
+  EXPECT_LT(error(track), 0.1);
+  EXPECT_GT(alone, 0.2);
+}
+
+TEST(Hypotheses, of_the_pictures_since_the_last_sight_the_one_that_tells_most_is_kept) {
+  ObjectTrack track = new_track();
+  const auto see = [&](double dt, std::size_t num_points) {
+    const Twist motion = to_the_side(3 * dt);
+    ImageFactor image = picture_of(motion);
+    image.observations.resize(num_points);
+    note_answer(track, estimate_motion(track, image, question_after(dt, 60), {motion}, {}), {});
+  };
+  see(0.1, 60);
+  const TrackState many = track.latest;
+  see(0.15, 12);
+  EXPECT_EQ(track.latest.stamp, many.stamp) << "twelve points tell less";
+  see(0.2, 60);
+  EXPECT_EQ(track.latest.stamp, shifted(kStart, 0.2)) << "a longer way tells more";
+  const TrackState foretold = predicted(many, track.latest.stamp, {});
+  EXPECT_LT(track.latest.covariance(4, 4), foretold.covariance(4, 4));
 }
 
 TEST(Hypotheses, what_a_picture_tells_is_kept_and_what_scans_to_come_tell_is_not) {
@@ -190,7 +228,7 @@ TEST(Hypotheses, what_a_picture_tells_is_kept_and_what_scans_to_come_tell_is_not
   ASSERT_TRUE(answer.is_seen);
   EXPECT_LT(answer.log_ratio, -0.5);
   EXPECT_NEAR(answer.log_odds, std::max(-kMostLogOdds, 3 + answer.log_ratio), 1e-9);
-  note_answer(track, answer);
+  note_answer(track, answer, {});
   EXPECT_NEAR(track.latest_log_odds, std::max(-kMostLogOdds, 1 + answer.log_ratio), 1e-9);
 }
 
@@ -200,7 +238,7 @@ TEST(Hypotheses, what_scans_and_picture_hold_for_parked_is_settled_until_its_nex
     const Twist motion = to_the_side(moved_m);
     ImageFactor image = picture_of(motion);
     image.observations.resize(num_points);
-    note_answer(track, estimate_motion(track, image, question_after(0.1, 8), {motion}, {}));
+    note_answer(track, estimate_motion(track, image, question_after(0.1, 8), {motion}, {}), {});
     return track.settled != nullptr;
   };
   EXPECT_TRUE(is_settled(-kMostLogOdds, 0, 8));

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "lidar_upsampling/decompositions.h"
+#include "lidar_upsampling/tracks/common_errors.h"
 #include "lidar_upsampling/tracks/log_odds.h"
 #include "lidar_upsampling/tracks/picture_evidence.h"
 #include "lidar_upsampling/tracks/scan_factor.h"
@@ -13,39 +14,6 @@
 
 namespace lidar_upsampling {
 namespace {
-
-/// The ego-motion's error, as a motion of the object; lidar frame at k.
-Matrix6d ego_error(const MotionQuestion& question) {
-  const Eigen::Matrix3d R = question.T_lidar_t_lidar_k.linear().transpose();
-  Matrix6d by_twist = Matrix6d::Zero();
-  by_twist.topLeftCorner<3, 3>() = R;
-  by_twist.bottomLeftCorner<3, 3>() = -R * skew(question.T_lidar_t_lidar_k * question.centroid);
-  by_twist.bottomRightCorner<3, 3>() = R;
-  return by_twist * question.ego_covariance * by_twist.transpose();
-}
-
-/// What all points of an object have wrong alike, as a motion of it: calibration, straightening of
-/// the scan, a body that bends. A shift, and as much again from its middle to its edge, which looks
-/// like a turn, or like coming nearer.
-Matrix6d picture_error(const MotionQuestion& question, const ImageFactor& image,
-                       const TrackOptions& options) {
-  constexpr double kPatch_px = 5;  // a single point is as wide as its patch
-  const double range = question.centroid.norm(), m_per_px = range / question.focal_px;
-  const Eigen::Vector3d ahead = question.centroid / range;
-  const auto count = static_cast<double>(image.observations.size());
-  Eigen::Vector3d middle = Eigen::Vector3d::Zero();
-  for (const Observation& seen : image.observations) middle += seen.point_in_source;
-  middle /= count;
-  double sq_width = std::pow(kPatch_px * m_per_px, 2);
-  for (const Observation& seen : image.observations)
-    sq_width += ahead.cross(seen.point_in_source - middle).squaredNorm() / count;
-  const double sq_shift = std::pow(options.common_error_px * m_per_px, 2);
-  const double sq_share = sq_shift / sq_width;  // of its size
-  Matrix6d error = Matrix6d::Zero();
-  error.diagonal() << Eigen::Vector3d::Constant(sq_share), Eigen::Vector3d::Constant(sq_shift);
-  error.bottomRightCorner<3, 3>() += sq_share * range * range * ahead * ahead.transpose();
-  return error;
-}
 
 PlanarStep in_rest(const Twist& mean, const Matrix6d& covariance,
                    const Eigen::Matrix3d& R_rest_lidar_k) {
@@ -94,9 +62,16 @@ std::vector<Way> ways_of(const ObjectTrack& track, const MotionQuestion& questio
   if (track.ahead)
     return {way(1, at_instant(track.state), track.expected_at(question.instant, options.noise))};
   std::vector<Way> ways;
+  double share = 1;
+  if (is_told_by_picture(track, options)) {
+    share = options.outlier_share;  // else an earlier picture was wrong
+    const TrackState now = at_instant(track.latest);
+    ways.push_back(way(1 - share, now, now));
+    ways.back().is_told = true;
+  }
   for (const Course& course : courses_before_images(track, question.ego_velocity, options.noise)) {
     const TrackState now = at_instant(course.from);
-    ways.push_back(way(course.probability, now, now));
+    ways.push_back(way(share * course.probability, now, now));
   }
   return ways;
 }
@@ -121,24 +96,41 @@ MotionFit without(const Matrix6d& error, const MotionExpected& expected, MotionF
   return fit;
 }
 
+/// The mixture of all that was expected before any picture, each with a right and with a wrong one:
+/// pictures since the last sight follow the same points, so that the same is wrong in all of them.
+TrackState state_by_picture(const PictureEvidence& evidence, const std::vector<Way>& ways,
+                            const MotionExpected& parked, const Eigen::Matrix3d& R_rest_lidar_k) {
+  std::vector<TrackState> states;
+  std::vector<double> weights;
+  double sum = 0;
+  for (std::size_t i = 0; i < ways.size(); ++i) {
+    if (ways[i].is_told) continue;
+    weights.insert(weights.end(), {evidence.right[i], evidence.wrong[i]});
+    states.push_back(
+        learnt(ways[i].state, ways[i].expected, parked, evidence.moving[i], R_rest_lidar_k));
+    states.push_back(ways[i].state);
+    sum += evidence.right[i] + evidence.wrong[i];
+  }
+  for (double& weight : weights) weight /= sum;
+  TrackState state = states.front();
+  mix(weights, states, state);
+  return state;
+}
+
 /// The mixture of all ways, each with a right and with a wrong picture.
 void learn(const PictureEvidence& evidence, const std::vector<Way>& ways,
            const MotionExpected& parked, const Matrix6d& of_picture, const MotionQuestion& question,
            MotionAnswer& answer) {
   std::vector<MotionFit> told;
-  std::vector<TrackState> states;
   std::vector<double> weights;
   double wrong = 0;
   for (std::size_t i = 0; i < ways.size(); ++i) {
     weights.push_back(evidence.right[i]);
     told.push_back(without(of_picture, ways[i].expected, evidence.moving[i]));
-    states.push_back(learnt(ways[i].state, ways[i].expected, parked, evidence.moving[i],
-                            question.R_rest_lidar_k));
     weights.push_back(evidence.wrong[i]);
     told.push_back(told.back());
     told.back().mean = ways[i].expected.mean;
     told.back().covariance = ways[i].expected.covariance;
-    states.push_back(ways[i].state);
     wrong += evidence.wrong[i];
   }
   answer.is_seen = wrong < 0.5;
@@ -146,7 +138,7 @@ void learn(const PictureEvidence& evidence, const std::vector<Way>& ways,
   answer.moving = evidence.moving[std::max_element(evidence.right.begin(), evidence.right.end()) -
                                   evidence.right.begin()];
   mix(weights, told, answer.moving);
-  mix(weights, states, answer.state);
+  answer.state = state_by_picture(evidence, ways, parked, question.R_rest_lidar_k);
   answer.log_ratio = evidence.log_moving - evidence.log_parked;
   answer.log_odds += answer.log_ratio;
 }
@@ -217,11 +209,17 @@ MotionAnswer estimate_motion(const ObjectTrack& track, const ImageFactor& image,
   return answer;
 }
 
-void note_answer(ObjectTrack& track, const MotionAnswer& answer) {
+void note_answer(ObjectTrack& track, const MotionAnswer& answer, const MotionNoise& noise) {
   if (!answer.is_seen) return;
   if (!answer.moves && answer.log_odds <= -kMostLogOdds && answer.log_ratio <= 0)
     track.settled = std::make_shared<const MotionAnswer>(answer);
-  track.latest = answer.state;
+  const auto doubt = [](const TrackState& state) {
+    return state.covariance.block<2, 2>(3, 3).trace();
+  };
+  const TrackState& now = answer.state;
+  if (track.latest.stamp == track.stamp ||
+      doubt(now) < doubt(predicted(track.latest, now.stamp, noise)))
+    track.latest = now;
   track.latest_log_odds =
       std::clamp(track.log_odds + answer.log_ratio, -kMostLogOdds, kMostLogOdds);
 }

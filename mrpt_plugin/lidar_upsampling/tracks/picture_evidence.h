@@ -13,6 +13,7 @@ struct Way {
   double probability = 0;
   TrackState state;         ///< at the instant, as the filter has it
   MotionExpected expected;  ///< then, with scans to come
+  bool is_told = false;     ///< by earlier pictures since its last sight, whose errors this one has
 };
 
 /// What a picture makes of the hypotheses.

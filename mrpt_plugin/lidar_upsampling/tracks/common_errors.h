@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the lidar_upsampling authors
+#pragma once
+
+#include "lidar_upsampling/tracks/hypotheses.h"
+
+/// What all points of an object have wrong alike, as a motion of it; covariances, lidar frame at k.
+namespace lidar_upsampling {
+
+/// The ego-motion's error.
+[[nodiscard]] Matrix6d ego_error(const MotionQuestion& question);
+
+/// @brief Of the picture: calibration, straightening of the scan, a body that bends. A shift, and
+/// as much again from its middle to its edge, which looks like a turn, or like coming nearer.
+[[nodiscard]] Matrix6d picture_error(const MotionQuestion& question, const ImageFactor& image,
+                                     const TrackOptions& options);
+
+}  // namespace lidar_upsampling
