@@ -195,7 +195,7 @@ void list_motion(Config& c, SettingList& v) {
   v.flag("static_test", t.static_test,
          "an object that cannot be told from a parked one stays parked");
   v.flag("scan_prior", t.scan_factor, "the motion between real scans weighs in, by registration");
-  v.flag("image_prior", t.image_factor, "the motion seen on images before the key scan weighs in");
+  v.flag("image_prior", t.image_factor, "the motion seen on earlier images weighs in");
   v.flag("ground_prior", t.ground_factor, "that vehicles stay on the ground and level weighs in");
   v.number("sigma_px", o.pose.sigma_px, kPositive, "noise of a followed point, per axis");
   v.number("outlier_range_px", o.pose.outlier_range_px, kPositive,

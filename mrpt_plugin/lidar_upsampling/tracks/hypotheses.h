@@ -48,10 +48,9 @@ struct MotionAnswer {
                                            const TrackOptions& options);
 
 /// @brief What the picture tells is known from here on, unless an earlier one since the object's
-/// last sight told its velocity more precisely: pictures that follow the same points have the same
-/// wrong, so that many are no better than the best. What scans to come tell is not: they will be
-/// asked in their turn. What is parked by odds as clear as they get, to which the picture agrees,
-/// is settled.
+/// last sight told its velocity more precisely: pictures that follow the same points err alike, and
+/// many are no better than the best. What scans to come tell is not: they will be asked in their
+/// turn. What is parked by odds as clear as they get, to which the picture agrees, is settled.
 void note_answer(ObjectTrack& track, const MotionAnswer& answer, const MotionNoise& noise);
 
 }  // namespace lidar_upsampling

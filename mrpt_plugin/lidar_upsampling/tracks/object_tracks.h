@@ -20,7 +20,7 @@ struct MotionAnswer;
 /// What is assumed of objects, all in one place. Without a factor, the others decide alone.
 struct TrackOptions {
   bool scan_factor = true;    ///< registration between real scans
-  bool image_factor = true;   ///< what images told of the velocity is known at the next scan
+  bool image_factor = true;   ///< what images told is known at the next one, and at the next scan
   bool ground_factor = true;  ///< vehicles stay on the ground, and level
   bool static_test = true;    ///< what is likelier parked stays; off: all moves as it was fitted
 
