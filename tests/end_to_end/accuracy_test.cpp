@@ -73,7 +73,7 @@ TEST_P(Accuracy, of_a_drawn_situation_is_not_half_as_bad_again) {
 
 INSTANTIATE_TEST_SUITE_P(Scenarios, Accuracy,
                          testing::Values(Bounds{"braking.ini", 20, 0.19, 0.4},
-                                         Bounds{"oncoming.ini", 20, 0.43, 0.5},
+                                         Bounds{"oncoming.ini", 20, 0.43, 0.85},
                                          Bounds{"rotating_ego.ini", 50, 0.0185, 0.2}),
                          [](const auto& bounds) {
                            return fs::path(bounds.param.scenario).stem().string();
