@@ -143,16 +143,11 @@ void learn(const PictureEvidence& evidence, const std::vector<Way>& ways,
   answer.log_odds += answer.log_ratio;
 }
 
-/// Where this picture says nothing, an earlier one since the last sight does.
-void go_on_as_told(const ObjectTrack& track, const MotionQuestion& question, const Matrix6d& common,
-                   const TrackOptions& options, MotionAnswer& answer) {
-  answer.state = predicted(track.latest, question.instant, options.noise);
-  const MotionExpected expected =
-      expected_motion(answer.state, question.R_rest_lidar_k,
-                      seconds_between(track.stamp, question.instant), options);
-  answer.moving.mean = expected.mean;
-  answer.moving.covariance = expected.covariance + common;
-  answer.log_odds = track.latest_log_odds;
+/// The motion as one of the ways has it, without the picture.
+void take(const Way& way, MotionAnswer& answer) {
+  answer.state = way.state;
+  answer.moving.mean = way.expected.mean;
+  answer.moving.covariance = way.expected.covariance;
 }
 
 }  // namespace
@@ -194,15 +189,15 @@ MotionAnswer estimate_motion(const ObjectTrack& track, const ImageFactor& image,
   const std::vector<Way> ways = ways_of(track, question, parked.covariance, options);
   MotionAnswer answer;
   answer.log_odds = track.expected_log_odds();
-  answer.state = ways.front().state;
-  answer.moving.mean = ways.front().expected.mean;
-  answer.moving.covariance = ways.front().expected.covariance;
+  take(ways.front(), answer);
   answer.parked.covariance = parked.covariance;
   if (is_shown)
     learn(evidence_of_picture(track.stamp, image, question, ways, parked, starts, options), ways,
           parked, of_picture, question, answer);
-  if (!answer.is_seen && is_told_by_picture(track, options))
-    go_on_as_told(track, question, parked.covariance, options, answer);
+  if (!answer.is_seen && ways.front().is_told) {
+    take(ways.front(), answer);
+    answer.log_odds = track.latest_log_odds;
+  }
   answer.moves = options.static_test ? answer.log_odds > std::log(options.loss_ratio)
                                      : answer.is_seen || answer.log_odds > 0;
   answer.log_odds = std::clamp(answer.log_odds, -kMostLogOdds, kMostLogOdds);
