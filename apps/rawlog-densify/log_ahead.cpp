@@ -24,7 +24,8 @@ std::size_t unpacked_size(const mrpt::serialization::CSerializable& object) {
 }
 
 std::size_t weight_of(const RawlogEntry& entry) {
-  return 2 * entry.bytes.size() + unpacked_size(*entry.object);
+  const std::size_t packed = entry.packed.ended ? entry.packed.ended->bytes.size() : 0;
+  return 2 * entry.bytes.size() + packed + unpacked_size(*entry.object);
 }
 
 }  // namespace

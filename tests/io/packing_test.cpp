@@ -4,6 +4,7 @@
 #include <mrpt/io/CFileGZInputStream.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <random>
 
 #include "lidar_upsampling/io/output_file.h"
@@ -73,6 +74,99 @@ INSTANTIATE_TEST_SUITE_P(All, Packing,
                            std::replace(name.begin(), name.end(), ':', '_');
                            return name;
                          });
+
+/// Reads a file in pieces and writes them again, as `change` leaves them.
+template <typename Change>
+void copy_file(const std::string& from, const std::string& to, Compression compression,
+               const std::vector<Bytes>& pieces, const Change& change) {
+  PackedReader reader(from);
+  OutputFile file(to);
+  PackedWriter writer(file, compression);
+  for (const Bytes& piece : pieces) {
+    Bytes read(piece.size());
+    EXPECT_EQ(reader.Read(read.data(), read.size()), read.size());
+    EXPECT_EQ(reader.take_record(), piece);
+    const PlaceInMembers place = reader.place_in_members();
+    for (const Bytes& bytes : change(read)) writer.write(bytes, place);
+  }
+  writer.finish();
+  file.commit();
+}
+
+std::vector<Bytes> as_it_is(const Bytes& piece) { return {piece}; }
+
+/// Of pieces that somebody else has packed in members: the third and the fourth share one.
+class CopiedMembers : public ::testing::Test {
+ protected:
+  CopiedMembers() { write_file(in_, parse_compression("gzip:9"), pieces_); }
+
+  [[nodiscard]] bool holds_member_of(const std::string& path, const std::vector<Bytes>& pieces) {
+    const std::string alone = folder_ / "alone";
+    write_file(alone, parse_compression("gzip:9"), pieces);
+    const Bytes all = file_bytes(path), member = file_bytes(alone);
+    std::filesystem::remove(alone);
+    return std::search(all.begin(), all.end(), member.begin(), member.end()) != all.end();
+  }
+
+  TestFolder folder_;
+  const std::string in_ = folder_ / "in", out_ = folder_ / "out";
+  const std::vector<Bytes> pieces_{some_bytes(2 * kMember, 1), some_bytes(400000, 2),
+                                   some_bytes(10000, 3), some_bytes(500000, 4)};
+};
+
+TEST_F(CopiedMembers, stay_as_they_were_packed) {
+  copy_file(in_, out_, Compression::fast, pieces_, as_it_is);
+  EXPECT_EQ(file_bytes(out_), file_bytes(in_));
+  write_file(folder_ / "anew", Compression::fast, pieces_);
+  EXPECT_NE(file_bytes(folder_ / "anew"), file_bytes(in_));
+}
+
+TEST_F(CopiedMembers, are_packed_anew_where_a_piece_is_another_or_missing) {
+  const auto changed = [](Bytes piece) {
+    if (piece.size() == 10000) piece[5] ^= 1U;
+    return std::vector<Bytes>{std::move(piece)};
+  };
+  const auto missing = [](const Bytes& piece) {
+    return piece.size() == 10000 ? std::vector<Bytes>{} : std::vector<Bytes>{piece};
+  };
+  copy_file(in_, out_, Compression::fast, pieces_, changed);
+  EXPECT_EQ(uncompressed(out_),
+            joined({pieces_[0], pieces_[1], changed(pieces_[2])[0], pieces_[3]}));
+  copy_file(in_, folder_ / "less", Compression::fast, pieces_, missing);
+  EXPECT_EQ(uncompressed(folder_ / "less"), joined({pieces_[0], pieces_[1], pieces_[3]}));
+  for (const std::string& path : {out_, folder_ / "less"}) {
+    EXPECT_TRUE(holds_member_of(path, {pieces_[0]}) && holds_member_of(path, {pieces_[1]}));
+    EXPECT_FALSE(holds_member_of(path, {pieces_[2], pieces_[3]}));
+  }
+}
+
+TEST_F(CopiedMembers, let_others_come_between_pieces) {
+  const Bytes other = some_bytes(70000, 5);
+  copy_file(in_, out_, Compression::fast, pieces_, [&](const Bytes& piece) {
+    return std::vector<Bytes>{piece, other};
+  });
+  EXPECT_EQ(uncompressed(out_),
+            joined({pieces_[0], other, pieces_[1], other, pieces_[2], other, pieces_[3], other}));
+  EXPECT_TRUE(holds_member_of(out_, {pieces_[0]}) && holds_member_of(out_, {pieces_[1]}));
+}
+
+TEST_F(CopiedMembers, are_packed_anew_where_the_packing_is_chosen) {
+  for (const Compression compression :
+       {Compression::none, Compression::small, parse_compression("zstd:3")}) {
+    const std::string path = folder_ / to_text(compression), anew = path + "-anew";
+    copy_file(in_, path, compression, pieces_, as_it_is);
+    write_file(anew, compression, pieces_);
+    EXPECT_EQ(file_bytes(path), file_bytes(anew)) << to_text(compression);
+  }
+}
+
+TEST_F(CopiedMembers, need_no_members_in_a_log_that_is_one_stream) {
+  const std::vector<Bytes> pieces{some_bytes(6 * kMember, 6), some_bytes(3 * kMember, 7),
+                                  some_bytes(kMember, 8), some_bytes(100, 9)};
+  write_file(in_ + "-one", parse_compression("gzip:1"), {joined(pieces)});
+  copy_file(in_ + "-one", out_, Compression::fast, pieces, as_it_is);
+  EXPECT_EQ(uncompressed(out_), joined(pieces));
+}
 
 /// Two members, and how long the first is.
 struct TwoMembers {

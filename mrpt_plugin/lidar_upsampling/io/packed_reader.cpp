@@ -33,6 +33,9 @@ class PackedReader::Ahead {
   Ahead& operator=(const Ahead&) = delete;
 
   [[nodiscard]] std::uint64_t file_size() const { return file_size_; }
+  [[nodiscard]] bool is_gzip() const { return unpacker_.is_gzip(); }
+  /// Where members have ended in what was fetched; those passed are the reader's to take out.
+  [[nodiscard]] std::deque<MemberEnd>& ends() { return ends_; }
   [[nodiscard]] std::uint64_t file_position() const { return current_.file_position; }
   [[nodiscard]] bool at_end() {
     if (used_ < current_.bytes.size()) return false;
@@ -69,6 +72,7 @@ class PackedReader::Ahead {
     std::vector<std::uint8_t> bytes;  // none: the end
     std::uint64_t file_position = 0;
     std::optional<std::string> defect;
+    std::vector<MemberEnd> ends;
   };
 
   void fetch() {
@@ -77,6 +81,7 @@ class PackedReader::Ahead {
     changed_.wait(lock, [this] { return !ready_.empty(); });
     current_ = std::move(ready_.front());
     ready_.pop_front();
+    ends_.insert(ends_.end(), current_.ends.begin(), current_.ends.end());
     used_ = 0;
     is_ended_ = current_.bytes.empty();
     lock.unlock();
@@ -90,6 +95,7 @@ class PackedReader::Ahead {
       block.bytes.resize(kBlock);
       block.bytes.resize(unpacker_.unpack(block.bytes));
       block.file_position = unpacker_.file_position();
+      block.ends = unpacker_.take_ends();
       has_more = !block.bytes.empty();
       if (!has_more) block.defect = unpacker_.defect();
       std::unique_lock lock(mutex_);
@@ -106,6 +112,7 @@ class PackedReader::Ahead {
   Block current_;  // the reader's
   std::size_t used_ = 0;
   bool is_ended_ = false;
+  std::deque<MemberEnd> ends_;
 
   std::mutex mutex_;  // of what both use
   std::condition_variable changed_;
@@ -200,6 +207,18 @@ std::vector<std::uint8_t> PackedReader::take_record() {
   std::vector<std::uint8_t> bytes(record_);
   record_.clear();
   return bytes;
+}
+
+PlaceInMembers PackedReader::place_in_members() {
+  PlaceInMembers place;
+  for (std::deque<MemberEnd>& ends = ahead_->ends();
+       !ends.empty() && ends.front().unpacked_position <= position_; ends.pop_front()) {
+    member_begin_ = ends.front().unpacked_position;
+    if (member_begin_ == position_) place.ended = ends.front().member;
+  }
+  const std::uint64_t so_far = position_ - member_begin_;
+  place.goes_on = ahead_->is_gzip() && so_far > 0 && so_far < PackedMember::kLargest;
+  return place;
 }
 
 double PackedReader::progress() const {

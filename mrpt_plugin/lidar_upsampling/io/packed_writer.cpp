@@ -9,24 +9,38 @@
 namespace lidar_upsampling {
 namespace {
 
-constexpr std::size_t kMember = 1U << 20U;  // at least: smaller ones pack worse
+constexpr std::size_t kMember = 1U << 17U;  // at least: smaller ones pack worse
 constexpr std::size_t kMostWaiting = 4;     // members: the log's speed is what is written
 
 }  // namespace
 
 PackedWriter::PackedWriter(OutputFile& file, Compression compression)
-    : file_(file), packer_(make_packer(compression)), worker_([this] { work(); }) {}
+    : file_(file),
+      packer_(make_packer(compression)),
+      takes_members_(packer_->takes_members()),
+      worker_([this] { work(); }) {}
 
 PackedWriter::~PackedWriter() {
   if (worker_.joinable()) join();
 }
 
-void PackedWriter::write(const Bytes& bytes) {
+void PackedWriter::write(const Bytes& bytes, const PlaceInMembers& origin) {
   block_.insert(block_.end(), bytes.begin(), bytes.end());
-  if (block_.size() >= kMember) hand_over(std::exchange(block_, {}));
+  if (takes_members_ && origin.ended && ends_with(block_, *origin.ended)) {
+    block_.resize(block_.size() - origin.ended->unpacked_size);
+    if (!block_.empty()) hand_over({std::exchange(block_, {}), nullptr});
+    hand_over({{}, origin.ended});
+    return;
+  }
+  const bool waits = takes_members_ && origin.goes_on && block_.size() < PackedMember::kLargest;
+  if (block_.size() >= kMember && !waits) hand_over({std::exchange(block_, {}), nullptr});
 }
 
-void PackedWriter::hand_over(Bytes block) {
+const PackedWriter::Bytes& PackedWriter::packed(const Block& block) {
+  return block.packed ? block.packed->bytes : packer_->pack(block.bytes);
+}
+
+void PackedWriter::hand_over(Block block) {
   std::unique_lock lock(mutex_);
   changed_.wait(lock, [this] { return error_ || waiting_.size() < kMostWaiting; });
   if (error_) std::rethrow_exception(error_);
@@ -45,7 +59,7 @@ void PackedWriter::join() {
 }
 
 void PackedWriter::finish() {
-  if (!block_.empty()) hand_over(std::exchange(block_, {}));
+  if (!block_.empty()) hand_over({std::exchange(block_, {}), nullptr});
   join();
   if (error_) std::rethrow_exception(error_);
 }
@@ -55,7 +69,7 @@ void PackedWriter::work() {
     std::unique_lock lock(mutex_);
     changed_.wait(lock, [this] { return is_over_ || !waiting_.empty(); });
     const bool is_last = waiting_.empty();
-    Bytes block;
+    Block block;
     if (!is_last) {
       block = std::move(waiting_.front());
       waiting_.pop_front();
@@ -63,8 +77,8 @@ void PackedWriter::work() {
     lock.unlock();
     changed_.notify_all();
     try {
-      const Bytes& packed = is_last ? packer_->finish() : packer_->pack(block);
-      file_.write(packed.data(), packed.size());
+      const Bytes& bytes = is_last ? packer_->finish() : packed(block);
+      file_.write(bytes.data(), bytes.size());
       if (is_last) return;
     } catch (...) {
       lock.lock();

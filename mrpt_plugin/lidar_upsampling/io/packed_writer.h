@@ -11,6 +11,7 @@
 #include <thread>
 #include <vector>
 
+#include "lidar_upsampling/io/packed_member.h"
 #include "lidar_upsampling/io/packer.h"
 
 namespace lidar_upsampling {
@@ -28,26 +29,33 @@ class PackedWriter {
   PackedWriter& operator=(const PackedWriter&) = delete;
 
   /// What is written at once stays in one gzip member.
+  /// @param origin where it was read: of members that are written whole the packed bytes are taken.
   /// @throw std::runtime_error the system's reason, as "No space left on device", of this write or
   /// of one before.
-  void write(const std::vector<std::uint8_t>& bytes);
+  void write(const std::vector<std::uint8_t>& bytes, const PlaceInMembers& origin = {});
   /// The last call to make: all is written. @throw std::runtime_error likewise.
   void finish();
 
  private:
   using Bytes = std::vector<std::uint8_t>;
+  struct Block {
+    Bytes bytes;                                 // to be packed, unless
+    std::shared_ptr<const PackedMember> packed;  // it is already
+  };
 
-  void hand_over(Bytes block);
+  void hand_over(Block block);
+  [[nodiscard]] const Bytes& packed(const Block& block);
   void join();
   void work();
 
   OutputFile& file_;                // the worker's
   std::unique_ptr<Packer> packer_;  // the worker's
-  Bytes block_;                     // that gathers
+  const bool takes_members_;
+  Bytes block_;  // that gathers
 
   std::mutex mutex_;  // of what both threads use
   std::condition_variable changed_;
-  std::deque<Bytes> waiting_;
+  std::deque<Block> waiting_;
   bool is_over_ = false;
   std::exception_ptr error_;
   std::thread worker_;

@@ -25,6 +25,8 @@ class FastPacker : public Packer {
  public:
   FastPacker() : buffer_(ISAL_DEF_LVL2_DEFAULT) {}
 
+  [[nodiscard]] bool takes_members() const override { return true; }
+
   const std::vector<std::uint8_t>& pack(const std::vector<std::uint8_t>& block) override {
     constexpr std::size_t kFrame = 1024;  // header and trailer, and some more
     if (block.size() > std::numeric_limits<std::uint32_t>::max())

@@ -16,6 +16,8 @@ namespace lidar_upsampling {
 class Packer {
  public:
   virtual ~Packer() = default;
+  /// Whether gzip members that others have packed may come between.
+  [[nodiscard]] virtual bool takes_members() const { return false; }
   /// @return the packed block, valid until the next call. @throw std::runtime_error it cannot be.
   [[nodiscard]] virtual const std::vector<std::uint8_t>& pack(
       const std::vector<std::uint8_t>& block) = 0;

@@ -197,6 +197,7 @@ std::optional<RawlogEntry> RawlogReader::next() {
       continue;
     }
     entry.bytes = stream_->take_record();
+    entry.packed = stream_->place_in_members();
     note_good(entry);
     return entry;
   }
@@ -222,7 +223,7 @@ void RawlogWriter::write(const mrpt::serialization::CSerializable& object) {
 }
 
 void RawlogWriter::write(const RawlogEntry& entry) {
-  packed_->write(entry.bytes);
+  packed_->write(entry.bytes, entry.packed);
   ++num_written_;
 }
 

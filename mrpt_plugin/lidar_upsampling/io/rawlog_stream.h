@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "lidar_upsampling/io/left_out.h"
+#include "lidar_upsampling/io/packed_member.h"
 #include "lidar_upsampling/types.h"
 
 namespace lidar_upsampling {
@@ -25,6 +26,7 @@ class PackedReader;
 struct RawlogEntry {
   mrpt::serialization::CSerializable::Ptr object;
   std::vector<std::uint8_t> bytes;
+  PlaceInMembers packed = {};
 };
 
 /// An object with the bytes it is written as (pictures without loss).
@@ -123,7 +125,8 @@ class RawlogWriter {
 
   /// @throw std::runtime_error the disk is full, or another write error.
   void write(const mrpt::serialization::CSerializable& object);
-  /// Copies an object untouched.
+  /// Copies an object untouched; a gzip member of such objects as it was packed, where all that it
+  /// holds comes one after the other, and `fast` leaves the choice.
   void write(const RawlogEntry& entry);
   /// All is in the file. The last call to make, where that is the caller's.
   /// @throw std::runtime_error a write error

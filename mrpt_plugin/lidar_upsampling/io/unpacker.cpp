@@ -134,6 +134,27 @@ std::size_t Unpacker::copy(std::vector<std::uint8_t>& block) {
   return done;
 }
 
+void Unpacker::keep(const std::uint8_t* packed, std::size_t count,
+                    std::uint64_t unpacked_position) {
+  is_kept_ = is_kept_ && unpacked_position - sound_size_ <= PackedMember::kLargest;
+  if (is_kept_)
+    member_.insert(member_.end(), packed, packed + count);
+  else
+    member_.clear();
+}
+
+void Unpacker::end_member(std::uint64_t unpacked_position) {
+  MemberEnd end{unpacked_position, nullptr};
+  if (is_kept_)
+    end.member = std::make_shared<const PackedMember>(
+        PackedMember{member_, static_cast<std::size_t>(unpacked_position - sound_size_)});
+  ends_.push_back(std::move(end));
+  member_.clear();
+  is_kept_ = true;
+  member_begin_ = file_position();
+  sound_size_ = unpacked_position;
+}
+
 std::size_t Unpacker::inflate(std::vector<std::uint8_t>& block) {
   inflate_state& state = *state_;
   std::size_t done = 0;
@@ -145,16 +166,16 @@ std::size_t Unpacker::inflate(std::vector<std::uint8_t>& block) {
     state.next_out = block.data() + done;
     state.avail_out = static_cast<std::uint32_t>(block.size() - done);
     const int code = isal_inflate(&state);
+    done = block.size() - state.avail_out;
+    keep(input_.data() + begin_, size_ - state.avail_in, unpacked_size_ + done);
     begin_ += size_ - state.avail_in;
     size_ = state.avail_in;
-    done = block.size() - state.avail_out;
     if (code != ISAL_DECOMP_OK) return end(done, "the gzip stream is damaged: " + reason_of(code));
     if (state.block_state != ISAL_BLOCK_FINISH) {
       if (!has_input && done == before) return end(done, "the gzip stream is cut off");
       continue;
     }
-    member_begin_ = file_position();
-    sound_size_ = unpacked_size_ + done;
+    end_member(unpacked_size_ + done);
     if (!starts_with(kGzip))
       return size_ == 0 ? end(done, {})
                         : end(done, "the gzip stream is damaged: what follows it is none");
@@ -212,6 +233,8 @@ std::optional<std::uint64_t> Unpacker::resume() {
   const auto next = next_gzip_member(file_, member_begin_ + (is_between ? 0 : 1), is_between);
   if (!next || lseek(file_, static_cast<off_t>(next->from), SEEK_SET) < 0) return {};
   num_read_ = member_begin_ = next->from;
+  member_.clear();
+  is_kept_ = next->has_header;
   sound_size_ = unpacked_size_;
   begin_ = size_ = 0;
   is_at_end_ = false;

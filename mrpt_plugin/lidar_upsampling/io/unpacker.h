@@ -6,7 +6,10 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
+
+#include "lidar_upsampling/io/packed_member.h"
 
 struct inflate_state;
 struct ZSTD_DCtx_s;
@@ -16,6 +19,12 @@ namespace lidar_upsampling {
 /// @brief The system's words for why a file cannot be used, "cannot open x for reading: ...".
 /// @throw std::runtime_error always.
 [[noreturn]] void throw_open_error(const std::string& path, const char* purpose, int error_number);
+
+/// Where a gzip member ended.
+struct MemberEnd {
+  std::uint64_t unpacked_position = 0;
+  std::shared_ptr<const PackedMember> member;  ///< null: it is not kept
+};
 
 /// @brief Unpacks a file block by block: gzip (RFC 1952) or zstd (RFC 8878), as its first bytes
 /// tell, its members or frames one after the other; or a plain file, as it is. What follows a
@@ -42,9 +51,13 @@ class Unpacker {
   [[nodiscard]] std::uint64_t unpacked_size() const { return unpacked_size_; }
   [[nodiscard]] std::uint64_t sound_size() const { return sound_size_; }
 
+  /// Of gzip members that have ended since the last call.
+  [[nodiscard]] std::vector<MemberEnd> take_ends() { return std::exchange(ends_, {}); }
+
   /// Why the end is no clean one.
   [[nodiscard]] const std::optional<std::string>& defect() const { return defect_; }
   [[nodiscard]] bool is_packed() const { return kind_ != Kind::plain; }
+  [[nodiscard]] bool is_gzip() const { return kind_ == Kind::gzip; }
   [[nodiscard]] bool is_zstd() const { return kind_ == Kind::zstd; }
   [[nodiscard]] std::uint64_t file_size() const { return file_size_; }
   /// Bytes of the file that have been used.
@@ -61,6 +74,8 @@ class Unpacker {
   bool starts_with(const std::vector<std::uint8_t>& magic);
   std::size_t copy(std::vector<std::uint8_t>& block);
   std::size_t inflate(std::vector<std::uint8_t>& block);
+  void keep(const std::uint8_t* packed, std::size_t count, std::uint64_t unpacked_position);
+  void end_member(std::uint64_t unpacked_position);
   std::size_t unpack_zstd(std::vector<std::uint8_t>& block);
   std::size_t end(std::size_t done, std::optional<std::string> defect);
 
@@ -73,6 +88,9 @@ class Unpacker {
   std::vector<std::uint8_t> input_;
   std::size_t begin_ = 0, size_ = 0;  // of what is left of `input_`
   std::unique_ptr<inflate_state> state_;
+  std::vector<std::uint8_t> member_;  // so far
+  bool is_kept_ = true;               // whether it is all of the member
+  std::vector<MemberEnd> ends_;
   std::unique_ptr<ZSTD_DCtx_s, Free> zstd_;
   bool in_frame_ = false;
   std::optional<std::string> defect_;
