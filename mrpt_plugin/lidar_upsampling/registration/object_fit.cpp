@@ -127,7 +127,7 @@ double score_by_matches(const ObjectFit& fit, const Pose& T_target_object,
 }  // namespace
 
 Sight sight_in(const ObjectFit& fit, const Eigen::Vector3f& place) {
-  return fit.clues.seen == nullptr ? Sight::open : fit.clues.seen->at(place);
+  return fit.seen == nullptr ? Sight::open : fit.seen->at(place);
 }
 
 double score_of(const ObjectFit& fit, const Pose& T_target_object, int stride) {

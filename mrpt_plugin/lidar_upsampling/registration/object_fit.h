@@ -16,7 +16,7 @@ struct ObjectFit {
   const Pose& T_level;  ///< the ego-motion
   const ObjectRegistrationOptions& options;
   Eigen::Vector3d centroid;  ///< of the points
-  const RegistrationClues& clues;
+  const SeenSpace* seen;     ///< by the target's sensor; null: not known
 };
 
 /// Farther matches, m, are all as bad.

@@ -22,35 +22,15 @@ constexpr double kSettled = 2e-4, kGoodStart = 1e-3;  // m and rad: steps that e
 
 Pose shifted_by(const Pose& T, double x, double y) { return Eigen::Translation3d(x, y, 0) * T; }
 
-/// Whether the object may as well be out of the target's sight there: all of it is hidden, and what
-/// it was matched to need not be its own, as it would not have been seen from where the object was.
-bool may_hide_at(const ObjectFit& problem, const Pose& T, const Fitted& best) {
-  constexpr double kMost = 0.9, kFew = 0.3;
-  if (problem.clues.seen_with_object == nullptr) return false;
-  const Eigen::Isometry3f T_target_object = T.cast<float>(), back = T_target_object.inverse();
-  const auto num_points = static_cast<double>(problem.points.size());
-  int hidden = 0, unexplained = 0;
-  for (const auto& point : problem.points) {
-    hidden += sight_in(problem, T_target_object * point) == Sight::hidden ? 1 : 0;
-  }
-  if (hidden < kMost * num_points) return false;
-  for (const auto& point : problem.points) {
-    const auto match = problem.target.nearest(best.T.cast<float>() * point);
-    const Eigen::Vector3f then = back * problem.target.points()[match.index];
-    unexplained += problem.clues.seen_with_object->at(then) == Sight::seen_through ? 1 : 0;
-  }
-  return unexplained < kFew * num_points;
-}
-
 /// How far a centroid went astray of a start, as a deviation.
 Eigen::Vector2d deviation_of(const Eigen::Vector2d& astray, double shift_m) {
   return astray / std::max(0.1, 1 - astray.norm() / shift_m);
 }
 
 /// Fits the object again from starts beside the answer, where it is held least. One that comes back
-/// part of the way speaks of a weak pull there, one that stays of none, and what has gone out of
-/// sight cannot come back. Points lock into one another's pattern: starts are more than half a step
-/// of it away, and within a step they may lie anyhow.
+/// part of the way speaks of a weak pull there, one that stays of none. Points lock into one
+/// another's pattern: starts are more than half a step of it away, and within a step they may lie
+/// anyhow.
 Ambiguity ambiguity_of(const ObjectFit& problem, const Fitted& best) {
   constexpr double kShift = 0.2;
   const Sampling sampling = sampling_under(problem, best.T);
@@ -59,13 +39,9 @@ Ambiguity ambiguity_of(const ObjectFit& problem, const Fitted& best) {
   Ambiguity result;
   for (const double side : {shift_m, -shift_m}) {
     Eigen::Vector2d astray = side * sampling.loosest;
-    const Pose start = shifted_by(best.T, astray.x(), astray.y());
-    const Pose further = shifted_by(start, astray.x(), astray.y());  // shadows are not sharp
-    if (!may_hide_at(problem, start, best) && !may_hide_at(problem, further, best)) {
-      const Fitted again = converge(problem, start, stop);
-      if (again.score >= 1.15 * best.score + 0.005) continue;
-      astray = (again.T * problem.centroid - best.T * problem.centroid).head<2>();
-    }
+    const Fitted again = converge(problem, shifted_by(best.T, astray.x(), astray.y()), stop);
+    if (again.score >= 1.15 * best.score + 0.005) continue;
+    astray = (again.T * problem.centroid - best.T * problem.centroid).head<2>();
     result.spread_m = std::max(result.spread_m, astray.norm());
     const Eigen::Vector2d deviation = deviation_of(astray, shift_m);
     result.slack += 0.5 * deviation * deviation.transpose();  // it is tried both ways
@@ -132,7 +108,7 @@ const char* to_string(RegistrationStatus status) {
 ObjectRegistration register_object(const Points& points_object, const Surface& target,
                                    const std::vector<Pose>& guesses,
                                    const ObjectRegistrationOptions& options,
-                                   const RegistrationClues& clues) {
+                                   const SeenSpace* seen) {
   if (guesses.empty()) {
     throw std::invalid_argument("register_object: needs at least one guess, the ego-motion");
   }
@@ -145,8 +121,8 @@ ObjectRegistration register_object(const Points& points_object, const Surface& t
   const int choosing = options.choosing_points > 0 ? options.choosing_points : options.max_points;
   const Points few = evenly_thinned(points, static_cast<std::size_t>(choosing));
   const bool is_chosen_first = few.size() < points.size();
-  const ObjectFit problem{points, target, guesses.front(), options, mean_of(points), clues};
-  const ObjectFit coarse{few, target, guesses.front(), options, mean_of(few), clues};
+  const ObjectFit problem{points, target, guesses.front(), options, mean_of(points), seen};
+  const ObjectFit coarse{few, target, guesses.front(), options, mean_of(few), seen};
   Fitted best = best_fit(coarse, guesses, is_chosen_first ? kGoodStart : kSettled);
   if (is_chosen_first) best = converge(problem, best.T, kSettled, 1);
   result.T_target_object = best.T;

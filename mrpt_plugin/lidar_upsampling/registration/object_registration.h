@@ -33,14 +33,6 @@ struct ObjectRegistrationOptions {
 /// For objects of ten points or more from one scan to the next, where neighbours err alike.
 [[nodiscard]] ObjectRegistrationOptions options_between_scans();
 
-/// What else is known of an object and its target; null: nothing.
-struct RegistrationClues {
-  const SeenSpace* seen = nullptr;  ///< by the target's sensor: what is hidden from it needs no
-                                    ///< counterpart, where it saw through the object cannot be
-  const SeenSpace* seen_with_object = nullptr;  ///< by the object's own sensor then: without it
-                                                ///< nothing is taken to be out of sight
-};
-
 /// Why a registration is not to be trusted.
 enum class RegistrationStatus { reliable, too_few_points, poor_overlap, ambiguous };
 
@@ -63,11 +55,13 @@ struct ObjectRegistration {
 /// the ego-motion, and again from shifted starts to see whether the answer is unique.
 /// @param target the other scan, without ground.
 /// @param guesses T_target_object; the first is the ego-motion.
+/// @param seen by the target's sensor: what is hidden from it needs no counterpart, where it saw
+/// through the object cannot be; null: not known.
 /// @throw std::invalid_argument no guess.
 [[nodiscard]] ObjectRegistration register_object(const std::vector<Eigen::Vector3f>& points_object,
                                                  const Surface& target,
                                                  const std::vector<Pose>& guesses,
                                                  const ObjectRegistrationOptions& options = {},
-                                                 const RegistrationClues& clues = {});
+                                                 const SeenSpace* seen = nullptr);
 
 }  // namespace lidar_upsampling

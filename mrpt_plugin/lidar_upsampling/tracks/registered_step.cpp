@@ -3,48 +3,12 @@
 #include "lidar_upsampling/tracks/registered_step.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <utility>
 
 #include "lidar_upsampling/registration/object_registration.h"
 
 namespace lidar_upsampling {
 namespace {
-
-/// The points' mean, and that of those farthest to either side as the sensor sees them: an object
-/// that comes out from behind another keeps one end.
-std::array<Eigen::Vector3d, 3> landmarks(const std::vector<Eigen::Vector3f>& points,
-                                         const Pose& T_k) {
-  const Eigen::Isometry3f T = T_k.cast<float>();
-  const Eigen::Vector3f mean = T * mean_of(points).cast<float>();
-  const Eigen::Vector2f side = Eigen::Vector2f(-mean.y(), mean.x()).normalized();
-  std::vector<std::pair<float, int>> across;
-  across.reserve(points.size());
-  for (const auto& point : points)
-    across.emplace_back(side.dot((T * point).head<2>()), static_cast<int>(across.size()));
-  const auto share = static_cast<std::ptrdiff_t>(1 + points.size() / 10);
-  const auto mean_of_first = [&] {
-    std::nth_element(across.begin(), across.begin() + share - 1, across.end());
-    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-    for (std::ptrdiff_t i = 0; i < share; ++i) sum += (T * points[across[i].second]).cast<double>();
-    return Eigen::Vector3d(sum / static_cast<double>(share));
-  };
-  const Eigen::Vector3d right = mean_of_first();
-  for (auto& [place, point] : across) place = -place;
-  return {mean.cast<double>(), right, mean_of_first()};
-}
-
-/// Level steps over ground that the object may have taken, by its outline.
-std::array<Eigen::Vector3d, 3> steps_by_shape(const ObjectScans& scans) {
-  const auto before = landmarks(scans.before.points(), scans.T_lidar_k_lidar_before);
-  auto step = landmarks(scans.now.points(), Pose::Identity());
-  for (std::size_t i = 0; i < step.size(); ++i) {
-    step[i] -= before[i];
-    if (i > 0) step[i].z() = 0;
-  }
-  return step;
-}
 
 bool can_be_registered(const ObjectScans& scans, const ObjectRegistrationOptions& options) {
   return static_cast<int>(scans.before.points().size()) >= options.min_points &&
@@ -55,8 +19,8 @@ bool can_be_registered(const ObjectScans& scans, const ObjectRegistrationOptions
 ObjectRegistration register_backwards(const ObjectScans& scans, std::vector<Pose> guesses,
                                       const ObjectRegistrationOptions& options) {
   for (Pose& guess : guesses) guess = guess.inverse();
-  ObjectRegistration result = register_object(scans.now.points(), scans.before, guesses, options,
-                                              {scans.seen_before, scans.seen_now});
+  ObjectRegistration result =
+      register_object(scans.now.points(), scans.before, guesses, options, scans.seen_before);
   result.T_target_object = result.T_target_object.inverse();
   const Eigen::Matrix2d turn = result.T_target_object.linear().topLeftCorner<2, 2>();
   result.slack = turn * result.slack * turn.transpose();
@@ -68,8 +32,7 @@ ObjectRegistration register_views(const ObjectScans& scans, const std::vector<Po
                                   const ObjectRegistrationOptions& options) {
   if (scans.before.points().size() > scans.now.points().size())
     return register_backwards(scans, guesses, options);
-  return register_object(scans.before.points(), scans.now, guesses, options,
-                         {scans.seen_now, scans.seen_before});
+  return register_object(scans.before.points(), scans.now, guesses, options, scans.seen_now);
 }
 
 /// How well a registration tells a step. What scatters about surfaces averages out; what lies off
@@ -113,16 +76,11 @@ std::optional<PlanarStep> registered_step(const ObjectScans& scans,
   options.yaw_sigma_rad = scans.turn_sigma_rad;
   if (!can_be_registered(scans, options)) return {};
   const Pose& T_ego = scans.T_lidar_k_lidar_before;
-  std::vector<Pose> guesses{T_ego, T_ego * scans.T_mov_guess};
-  const auto steps = steps_by_shape(scans);
-  guesses.emplace_back(Eigen::Translation3d(steps[0]) * T_ego);
-  ObjectRegistration registration = register_views(scans, guesses, options);
-  if (registration.status == RegistrationStatus::poor_overlap) {
-    guesses.emplace_back(Eigen::Translation3d(steps[1]) * T_ego);
-    guesses.emplace_back(Eigen::Translation3d(steps[2]) * T_ego);
-    registration = register_views(scans, guesses, options);
-  }
-  return step_of(registration, scans, R_rest_lidar_k);
+  const Eigen::Vector3d by_centroid =
+      mean_of(scans.now.points()) - T_ego * mean_of(scans.before.points());
+  const std::vector<Pose> guesses{T_ego, T_ego * scans.T_mov_guess,
+                                  Eigen::Translation3d(by_centroid) * T_ego};
+  return step_of(register_views(scans, guesses, options), scans, R_rest_lidar_k);
 }
 
 }  // namespace lidar_upsampling
