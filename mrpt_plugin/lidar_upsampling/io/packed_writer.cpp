@@ -9,8 +9,9 @@
 namespace lidar_upsampling {
 namespace {
 
-constexpr std::size_t kMember = 1U << 17U;  // at least: smaller ones pack worse
-constexpr std::size_t kMostWaiting = 4;     // members: the log's speed is what is written
+// At least: smaller ones pack worse. A picture or a scan fills one, so that it can be copied.
+constexpr std::size_t kMember = 1U << 17U;
+constexpr std::size_t kMostWaiting = 4;  // members: the log's speed is what is written
 
 }  // namespace
 
