@@ -32,6 +32,32 @@ TEST(RawlogWriter, copied_entries_are_the_same_byte_for_byte) {
   EXPECT_EQ(uncompressed(folder / "a.rawlog"), uncompressed(folder / "b.rawlog"));
 }
 
+TEST(RawlogWriter, copies_a_log_in_the_members_that_it_was_packed_in) {
+  const TestFolder folder;
+  const auto picture = colour_picture();
+  {
+    RawlogWriter writer(folder / "in.rawlog", false, parse_compression("gzip:9"));
+    for (int i = 0; i < 300; ++i) writer.write(*picture);
+    writer.commit();
+  }
+  const auto copy = [&](const std::string& name, bool with_others) {
+    RawlogReader reader(folder / "in.rawlog");
+    RawlogWriter writer(folder / name, false);
+    while (const auto entry = reader.next()) {
+      writer.write(*entry);
+      if (with_others) writer.write(*odometry(1));
+    }
+    writer.commit();
+    return file_bytes(folder / name);
+  };
+  EXPECT_EQ(copy("same.rawlog", false), file_bytes(folder / "in.rawlog"));
+  copy("more.rawlog", true);
+  RawlogReader more(folder / "more.rawlog");
+  int count = 0;
+  while (more.next()) ++count;
+  EXPECT_EQ(count, 600);
+}
+
 TEST(RawlogWriter, colour_pictures_are_written_without_loss) {
   const TestFolder folder;
   const auto picture = colour_picture();
