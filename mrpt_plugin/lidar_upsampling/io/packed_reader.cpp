@@ -19,6 +19,7 @@ namespace lidar_upsampling {
 class PackedReader::Ahead {
  public:
   explicit Ahead(const std::string& path) : unpacker_(path), file_size_(unpacker_.file_size()) {
+    unpacker_.keep_members();
     thread_ = std::thread([this] { unpack(); });
   }
   ~Ahead() {
@@ -202,14 +203,8 @@ std::uint64_t PackedReader::doubtful_from_record_on() {
   return 0;
 }
 
-std::vector<std::uint8_t> PackedReader::take_record() {
-  // Not moved out: the next object is likely as large, and so is read without growing step by step.
-  std::vector<std::uint8_t> bytes(record_);
-  record_.clear();
-  return bytes;
-}
-
-PlaceInMembers PackedReader::place_in_members() {
+// Members that have passed are forgotten, whoever asks for them.
+PlaceInMembers PackedReader::pass_members() {
   PlaceInMembers place;
   for (std::deque<MemberEnd>& ends = ahead_->ends();
        !ends.empty() && ends.front().unpacked_position <= position_; ends.pop_front()) {
@@ -219,6 +214,14 @@ PlaceInMembers PackedReader::place_in_members() {
   const std::uint64_t so_far = position_ - member_begin_;
   place.goes_on = ahead_->is_gzip() && so_far > 0 && so_far < PackedMember::kLargest;
   return place;
+}
+
+std::vector<std::uint8_t> PackedReader::take_record() {
+  place_ = pass_members();
+  // Not moved out: the next object is likely as large, and so is read without growing step by step.
+  std::vector<std::uint8_t> bytes(record_);
+  record_.clear();
+  return bytes;
 }
 
 double PackedReader::progress() const {

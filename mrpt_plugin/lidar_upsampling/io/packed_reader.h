@@ -59,8 +59,8 @@ class PackedReader : public mrpt::io::CStream {
   [[nodiscard]] std::optional<std::uint64_t> bytes_from_record_on();
   /// All that was read since the last call.
   [[nodiscard]] std::vector<std::uint8_t> take_record();
-  /// Of the record that was taken last, where nothing was read since.
-  [[nodiscard]] PlaceInMembers place_in_members();
+  /// Of the record that was taken last.
+  [[nodiscard]] const PlaceInMembers& place_in_members() const { return place_; }
   /// Share of the file on the disk that is read, 0 to 1.
   [[nodiscard]] double progress() const;
 
@@ -69,11 +69,13 @@ class PackedReader : public mrpt::io::CStream {
 
   std::size_t take_again(std::uint8_t* out, std::size_t count);
   bool look_ahead();
+  PlaceInMembers pass_members();
 
   std::string path_;
   std::uint64_t file_size_ = 0;
   std::uint64_t position_ = 0;      // in the uncompressed data
   std::uint64_t member_begin_ = 0;  // likewise, of the gzip member that it is in
+  PlaceInMembers place_;
   std::optional<std::uint64_t> unpacked_size_;
   std::optional<std::vector<UnpackedPart>> doubtful_;
   std::vector<std::uint8_t> record_;

@@ -148,9 +148,9 @@ void Unpacker::end_member(std::uint64_t unpacked_position) {
   if (is_kept_)
     end.member = std::make_shared<const PackedMember>(
         PackedMember{member_, static_cast<std::size_t>(unpacked_position - sound_size_)});
-  ends_.push_back(std::move(end));
+  if (keeps_members_) ends_.push_back(std::move(end));
   member_.clear();
-  is_kept_ = true;
+  is_kept_ = keeps_members_;
   member_begin_ = file_position();
   sound_size_ = unpacked_position;
 }
@@ -234,7 +234,7 @@ std::optional<std::uint64_t> Unpacker::resume() {
   if (!next || lseek(file_, static_cast<off_t>(next->from), SEEK_SET) < 0) return {};
   num_read_ = member_begin_ = next->from;
   member_.clear();
-  is_kept_ = next->has_header;
+  is_kept_ = keeps_members_ && next->has_header;
   sound_size_ = unpacked_size_;
   begin_ = size_ = 0;
   is_at_end_ = false;

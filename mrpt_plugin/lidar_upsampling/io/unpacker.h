@@ -51,7 +51,9 @@ class Unpacker {
   [[nodiscard]] std::uint64_t unpacked_size() const { return unpacked_size_; }
   [[nodiscard]] std::uint64_t sound_size() const { return sound_size_; }
 
-  /// Of gzip members that have ended since the last call.
+  /// From here on gzip members are kept, too, for take_ends(); to be asked for before all else.
+  void keep_members() { keeps_members_ = is_kept_ = true; }
+  /// Of those that have ended since the last call.
   [[nodiscard]] std::vector<MemberEnd> take_ends() { return std::exchange(ends_, {}); }
 
   /// Why the end is no clean one.
@@ -88,8 +90,9 @@ class Unpacker {
   std::vector<std::uint8_t> input_;
   std::size_t begin_ = 0, size_ = 0;  // of what is left of `input_`
   std::unique_ptr<inflate_state> state_;
+  bool keeps_members_ = false;
   std::vector<std::uint8_t> member_;  // so far
-  bool is_kept_ = true;               // whether it is all of the member
+  bool is_kept_ = false;              // whether it is all of the member
   std::vector<MemberEnd> ends_;
   std::unique_ptr<ZSTD_DCtx_s, Free> zstd_;
   bool in_frame_ = false;
