@@ -111,7 +111,7 @@ void LidarUpsampler::step_between_scans(const PreparedScan& before, PreparedScan
   const auto registration = register_scans(given ? standing_points(before) : before.scan.points,
                                            now.scan.points, now.T_scan_before);
   if (!registration) return;
-  EgoStep step = step_of(*registration, now.T_scan_before.translation());
+  EgoStep step = step_of(*registration);
   if (given) {
     note_step(pose_noise_, *given, step);
     step = fused(*given_step(before.scan, now.scan.stamp), step);  // with what was learnt just now

@@ -14,6 +14,7 @@ namespace lidar_upsampling {
 namespace {
 
 using testing::angle_between;
+using testing::Box;
 using testing::box_at;
 using testing::houses;
 using testing::lidar_at;
@@ -46,6 +47,20 @@ TEST(ScanRegistration, cars_that_move_do_not_pull_the_ego_motion_along) {
   const auto found = register_scans(k.points, t.points, Pose::Identity());
   ASSERT_TRUE(found);
   EXPECT_LT(translation_between(found->T_target_source, T_world_t.inverse() * T_world_k), 0.02);
+}
+
+TEST(ScanRegistration, what_leads_back_to_where_it_stood_says_how_little_holds_the_way_expected) {
+  // Walls along the road that go on with us as far as beams tell, and a single car's back.
+  const std::vector<Box> walls{box_at(0, 8, 0, {160, 1, 3}), box_at(0, -8, 0, {160, 1, 3}),
+                               box_at(12, 2, 0)};
+  const auto k = scan_street(walls, lidar_at(0, 0, 0), 1),
+             t = scan_street(walls, lidar_at(0, 0, 0), 2);
+  const auto found =
+      register_scans(k.points, t.points, lidar_at(0.4, 0, 0).inverse() * lidar_at(0, 0, 0));
+  ASSERT_TRUE(found);
+  EXPECT_LT(found->T_target_source.translation().norm(), 0.05);
+  EXPECT_NEAR(std::abs(found->way.normalized().x()), 1, 1e-3);
+  EXPECT_LT(found->hold, 0.03);
 }
 
 TEST(ScanRegistration, an_empty_plain_gives_no_answer) {

@@ -59,13 +59,12 @@ EgoStep fused(const EgoStep& a, const EgoStep& b) {
   return result;
 }
 
-EgoStep step_of(const Registration& registration, const Eigen::Vector3d& expected_way) {
+EgoStep step_of(const Registration& registration) {
   EgoStep step;
   step.T_to_from = registration.T_target_source;
   step.covariance = kPointsPerObservation * registration.covariance;
-  const Eigen::Vector3d seen = step.T_to_from.translation();
-  const Eigen::Vector3d way = seen.norm() > expected_way.norm() ? seen : expected_way;
   const double drag_m = kDrag_m * std::max(1., kEnoughHold / std::max(1e-9, registration.hold));
+  const Eigen::Vector3d& way = registration.way;
   const Eigen::Vector3d drag = way * std::min(1., drag_m / std::max(1e-9, way.norm()));
   step.covariance.bottomRightCorner<3, 3>() += drag * drag.transpose();
   return step;

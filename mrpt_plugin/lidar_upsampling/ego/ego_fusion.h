@@ -20,9 +20,7 @@ namespace lidar_upsampling {
 
 /// @brief A registration as a step with a covariance to believe: neighbouring points err alike, and
 /// what moves along with the sensor drags it along, the more the less of what stands holds.
-/// @param expected_way before the registration, target frame, m.
-[[nodiscard]] EgoStep step_of(const Registration& registration,
-                              const Eigen::Vector3d& expected_way);
+[[nodiscard]] EgoStep step_of(const Registration& registration);
 
 /// What steps of given poses have been wrong by lately, as registered scans show it.
 struct PoseNoise {

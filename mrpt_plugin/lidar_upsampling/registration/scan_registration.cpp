@@ -139,8 +139,10 @@ std::optional<Registration> iterate(const std::vector<Eigen::Vector3f>& source,
     return std::nullopt;
   }
   result.covariance = *covariance;
-  const Eigen::Vector3d way = result.T_target_source.translation().normalized();
-  result.hold = way.dot(sum.H.bottomRightCorner<3, 3>() * way) / sum.num_matches;
+  const Eigen::Vector3d gone = result.T_target_source.translation(), expected = guess.translation();
+  result.way = gone.norm() > expected.norm() ? gone : expected;
+  const Eigen::Vector3d along = result.way.normalized();
+  result.hold = along.dot(sum.H.bottomRightCorner<3, 3>() * along) / sum.num_matches;
   return result;
 }
 

@@ -13,10 +13,11 @@ namespace lidar_upsampling {
 /// The rigid motion between two scans, with the evidence.
 struct Registration {
   Pose T_target_source = Pose::Identity();
-  double inlier_share = 0;  ///< of the source points that found a plane
-  double rmse_m = 0;        ///< point to plane, of the inliers
-  double hold = 0;  ///< share of the points that would hold the way that was gone, if those that do
-                    ///< lay square to it
+  double inlier_share = 0;                        ///< of the source points that found a plane
+  double rmse_m = 0;                              ///< point to plane, of the inliers
+  Eigen::Vector3d way = Eigen::Vector3d::Zero();  ///< m, as gone or as guessed, whichever is longer
+  double hold = 0;  ///< share of the points that would hold that way, if those that do lay square
+                    ///< to it
   Matrix6d covariance = Matrix6d::Zero();  ///< of a Twist applied on the left, in the target frame
 };
 
