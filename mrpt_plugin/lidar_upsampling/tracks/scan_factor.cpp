@@ -152,19 +152,17 @@ class StepLikelihoods {
   double share_, astray_, stands_, locked_;
 };
 
-/// What the scans tell of the step, the ego-motion's error included: along one that is not its own,
-/// hardly anything, as what moves would else be told to stand by it.
+/// What the scans tell of the step, the ego-motion's error included.
 PlanarStep measured_step(const ObjectTrack& track, const ScanObject& object,
                          const TwoSights& sights, const TrackedScan& scan,
                          const TrackOptions& options) {
-  constexpr double kTimes = 3;  // as far may it really have gone: 30 % either way moves nothing
   std::optional<PlanarStep> registered;
   if (track.is_seen) registered = registered_step(sights.scans, scan.T_rest_lidar.linear());
   PlanarStep step = registered ? *registered : centroid_step(track, object, scan, options);
   join_ends(track, sights, scan, object.length - track.length, step);
   const Eigen::Vector2d along = step.mean.head<2>();
   if (!tells_step(sights, along, scan))
-    step.covariance.topLeftCorner<2, 2>() += kTimes * kTimes * along * along.transpose();
+    step.covariance.topLeftCorner<2, 2>() += along * along.transpose();
   step.covariance.topLeftCorner<2, 2>() += ego_error(scan, object.centroid);
   return step;
 }
