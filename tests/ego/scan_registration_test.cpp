@@ -47,6 +47,7 @@ TEST(ScanRegistration, cars_that_move_do_not_pull_the_ego_motion_along) {
   const auto found = register_scans(k.points, t.points, Pose::Identity());
   ASSERT_TRUE(found);
   EXPECT_LT(translation_between(found->T_target_source, T_world_t.inverse() * T_world_k), 0.02);
+  EXPECT_EQ(found->way, found->T_target_source.translation()) << "none was expected";
 }
 
 TEST(ScanRegistration, what_leads_back_to_where_it_stood_says_how_little_holds_the_way_expected) {
