@@ -3,75 +3,32 @@
 #include "lidar_upsampling/scan/patch_index.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <stdexcept>
 #include <string>
+#include <utility>
+
+#include "lidar_upsampling/scan/outlines.h"
 
 namespace lidar_upsampling {
 namespace {
 
 constexpr int kStatic = -1;  // as in VirtualScan::track_id
 
-constexpr float kNearest = 0.1F;  // metres from the axis: nearer places have no azimuth to speak of
-
-// The corners of a patch, lidar frame.
-struct Outline {
-  Eigen::Array4f x, y, z;
-};
-
-Outline outline_of(const Patch& patch, float origin_height, float reach) {
-  const Eigen::Array4f edge = reach / patch.inverse_reach;
-  const Eigen::Array4f x(edge[0], edge[0], edge[1], edge[1]), y(edge[2], edge[3], edge[2], edge[3]);
-  const Eigen::Array4f plane = patch.in_frame(patch.frame.row(0));
-  // A steep patch would reach to infinity.
-  const Eigen::Array4f depth = 1 / (plane[1] + plane[2] * x + plane[3] * y).max(0.25F * plane[1]);
-  const Eigen::Matrix<float, 4, 3>& axes = patch.frame;
-  return {(axes(1, 0) + axes(2, 0) * x + axes(3, 0) * y) * depth,
-          (axes(1, 1) + axes(2, 1) * x + axes(3, 1) * y) * depth,
-          (axes(1, 2) + axes(2, 2) * x + axes(3, 2) * y) * depth + origin_height};
-}
-
-Outline moved(const Outline& o, const Eigen::Isometry3f& T) {
-  return {T(0, 0) * o.x + T(0, 1) * o.y + T(0, 2) * o.z + T(0, 3),
-          T(1, 0) * o.x + T(1, 1) * o.y + T(1, 2) * o.z + T(1, 3),
-          T(2, 0) * o.x + T(2, 1) * o.y + T(2, 2) * o.z + T(2, 3)};
-}
-
-// Rows from `first` to before `end`, azimuths from `right` to `left`.
-struct Cover {
-  int first = 0, end = 0;
-  float right = 0, left = 0;
-};
-
-// Finds what an outline covers, from what the one before did.
-class Coverage {
+// Rows of beams, each found from the one before.
+class RowSearch {
  public:
-  Coverage(const BeamPattern& pattern, const BeamRow& own)
+  RowSearch(const BeamPattern& pattern, const BeamRow& own)
       : pattern_(pattern),
         origin_height_(own.origin_height),
         slack_(static_cast<int>(std::ceil(2 * pattern.scatter - 0.5F))),
         guess_(pattern.num_rows() / 2) {}
 
-  [[nodiscard]] Cover of(const Outline& outline) {
-    const float x = 0.25F * outline.x.sum(), y = 0.25F * outline.y.sum();
-    const float sq_distance = x * x + y * y;
-    if (!(sq_distance > kNearest * kNearest) || !std::isfinite(sq_distance)) return {};
-    const Eigen::Array4f ahead = (outline.x * x + outline.y * y).max(0.1F * sq_distance);
-    const Eigen::Array4f sideways = (outline.y * x - outline.x * y) / ahead;
-    const Eigen::Array4f inverse_distance =
-        1 / (outline.x * outline.x + outline.y * outline.y).sqrt();
-    const Eigen::Array4f tangent = (outline.z - origin_height_) * inverse_distance;
-    const float azimuth = azimuth_of(x, y);
-    Cover cover = rows_between(tangent.minCoeff(), tangent.maxCoeff(), inverse_distance[0]);
-    cover.right = azimuth + sideways.minCoeff();  // an angle's tangent is the larger one
-    cover.left = azimuth + sideways.maxCoeff();
-    return cover;
-  }
-
- private:
-  // @param inverse_distance at which the tangents were seen.
-  [[nodiscard]] Cover rows_between(float lowest, float highest, float inverse_distance) {
+  /// @param inverse_distance at which the tangents were seen.
+  /// @return the first row between the two and the one behind the last.
+  [[nodiscard]] std::pair<int, int> between(float lowest, float highest, float inverse_distance) {
     const auto tangent = [&](int row) {
       return pattern_.rows[row].tan_elevation +
              (pattern_.rows[row].origin_height - origin_height_) * inverse_distance;
@@ -84,6 +41,7 @@ class Coverage {
     return {std::max(0, guess_ - slack_), std::min(pattern_.num_rows(), row + slack_)};
   }
 
+ private:
   const BeamPattern& pattern_;
   float origin_height_;
   int slack_;
@@ -91,16 +49,21 @@ class Coverage {
 };
 
 // In one piece, or two where it lies across azimuth zero.
-void add_prints(const Cover& cover, int patch, const Columns& columns, FootprintsOfRow& prints) {
-  int first = columns.at(cover.right), last = columns.at(cover.left);
+// @param usual_size of a row's list.
+void add_prints(const std::pair<int, int>& rows, int first, int last, int patch,
+                const Columns& columns, std::size_t usual_size, FootprintsOfRow& prints) {
   if (last - first >= columns.number) first = 0, last = columns.number - 1;
-  const int wrapped = (first % columns.number + columns.number) % columns.number;
-  last += wrapped - first;
-  first = wrapped;
+  if (first < 0 || first >= columns.number) {
+    const int wrapped = (first % columns.number + columns.number) % columns.number;
+    last += wrapped - first;
+    first = wrapped;
+  }
   const int end = columns.number - 1;
-  for (int row = cover.first; row < cover.end; ++row) {
-    prints.on_row[row].push_back({patch, first, std::min(last, end)});
-    if (last > end) prints.on_row[row].push_back({patch, 0, last - end - 1});
+  for (int row = rows.first; row < rows.second; ++row) {
+    std::vector<Footprint>& on_row = prints.on_row[row];
+    if (on_row.empty()) on_row.reserve(usual_size);
+    on_row.push_back({patch, first, std::min(last, end)});
+    if (last > end) on_row.push_back({patch, 0, last - end - 1});
   }
 }
 
@@ -160,12 +123,25 @@ FootprintsOfRow find_footprints(const BeamRow& own, const BeamPattern& pattern,
                                 const Columns& columns, const PatchRefs& patches,
                                 const PatchMotions& motions, float reach) {
   FootprintsOfRow prints{own.origin(), std::vector<std::vector<Footprint>>(pattern.num_rows())};
-  Coverage coverage(pattern, own);
-  for (int i = own.begin; i < own.end; ++i) {
-    if (motions.of_patch[i] < 0) continue;
-    const Outline outline = outline_of(patches[i], own.origin_height, reach);
-    const Outline now = moved(outline, motions.forth[motions.of_patch[i]]);
-    add_prints(coverage.of(now), i, columns, prints);
+  RowSearch rows(pattern, own);
+  const std::vector<FourMotions> all_motions(motions.forth.begin(), motions.forth.end());
+  for (int i = own.begin; i < own.end; i += 4) {
+    std::array<const Patch*, 4> four{};
+    std::array<int, 4> motion{};
+    for (int lane = 0; lane < 4; ++lane) {
+      const int patch = std::min(i + lane, own.end - 1);
+      four[lane] = &patches[patch];
+      motion[lane] = std::max(0, motions.of_patch[patch]);
+    }
+    const bool is_one = std::count(motion.begin(), motion.end(), motion[0]) == 4;
+    const FourMotions moves = is_one ? all_motions[motion[0]] : FourMotions(all_motions, motion);
+    const Covers covers = covers_of(four, moves, own.origin_height, reach);
+    for (int lane = 0; lane < std::min(4, own.end - i); ++lane)
+      if (covers.is_somewhere[lane] && motions.of_patch[i + lane] >= 0)
+        add_prints(
+            rows.between(covers.lowest[lane], covers.highest[lane], covers.inverse_distance[lane]),
+            columns.at(covers.right[lane]), columns.at(covers.left[lane]), i + lane, columns,
+            own.end - own.begin, prints);
   }
   return prints;
 }

@@ -82,20 +82,19 @@ std::vector<int> inverse(const std::vector<int>& order) {
   return result;
 }
 
-// Those patches that a mover's outline changes: its own, and those beside it.
+// Those patches that a mover's outline changes, on both sides of it.
 // @param motion of each patch. @param at_rest the motion of the static scene.
 std::vector<std::uint8_t> changed_by_movers(const std::vector<BeamNeighbours>& neighbours,
                                             const int* motion, int at_rest) {
   std::vector<std::uint8_t> is_changed(neighbours.size(), 0);
   for (int i = 0; i < static_cast<int>(is_changed.size()); ++i) {
     if (motion[i] <= at_rest) continue;
-    is_changed[i] = 1;
     for (const Side side : {kRight, kLeft, kDown, kUp})
       // Those of the next one lead here, too, if they go on straight.
       for (int other = i, step = 0; step < 2; ++step) {
         other = neighbours[other][side];
         if (other < 0) break;
-        is_changed[other] = 1;
+        if (motion[other] != motion[i]) is_changed[i] = is_changed[other] = 1;
       }
   }
   return is_changed;
