@@ -22,42 +22,66 @@ Eigen::Matrix3d rotation_of(const Eigen::Vector3d& w) {
   return Eigen::AngleAxisd(angle, w / angle).toRotationMatrix();
 }
 
+/// Where each picture has the moved object: from points about the centroid to the camera's frame.
+std::vector<Eigen::Isometry3d> placed(const ImageFactor& image, const Eigen::Vector3d& centroid,
+                                      const Twist& motion) {
+  const Eigen::Matrix3d R = rotation_of(motion.head<3>());
+  std::vector<Eigen::Isometry3d> result;
+  for (const ImageView& view : image.views) {
+    Eigen::Isometry3d& T = result.emplace_back();
+    T.linear() = view.T_camera_lidar_k.linear() * R;
+    T.translation() =
+        view.T_camera_lidar_k * (centroid + view.share * motion.tail<3>() + view.offset);
+  }
+  return result;
+}
+
 /// Where a moved point is seen, against where it was found.
 struct Residual {
   Eigen::Vector2d px;
-  Eigen::Vector3d arm;  ///< from the centroid, turned
+  Eigen::Vector3d arm;  ///< from the centroid; camera frame
   Eigen::Vector2d normalised;
   double depth;
 };
 
-/// A motion with what every observation needs of it.
-struct Moved {
-  Eigen::Matrix3d R;
-  Eigen::Vector3d d;
-  Eigen::Vector3d centroid;
-};
-
-std::optional<Residual> residual_of(const Observation& observation, const ImageView& view,
-                                    const Moved& moved) {
-  const Eigen::Vector3d arm = moved.R * (observation.point_in_source - moved.centroid);
-  const Eigen::Vector3d at =
-      view.T_camera_lidar_k * (arm + moved.centroid + view.share * moved.d + view.offset);
+std::optional<Residual> residual_of(const Observation& observation, const Eigen::Vector3d& centroid,
+                                    const Eigen::Isometry3d& T_camera_centroid) {
+  const Eigen::Vector3d arm = T_camera_centroid.linear() * (observation.point_in_source - centroid);
+  const Eigen::Vector3d at = arm + T_camera_centroid.translation();
   if (at.z() * std::abs(at.z()) < kSqNearest_m) return std::nullopt;
   const Eigen::Vector2d normalised = at.head<2>() / at.z();
   return Residual{observation.pixel_by_normalised * (normalised - observation.normalised), arm,
                   normalised, at.z()};
 }
 
-Eigen::Matrix<double, 2, 6> by_motion(const Residual& residual, const Observation& observation,
-                                      const ImageView& view) {
-  Eigen::Matrix<double, 2, 3> by_point;
-  by_point << 1, 0, -residual.normalised.x(), 0, 1, -residual.normalised.y();
-  by_point =
-      observation.pixel_by_normalised * by_point * view.T_camera_lidar_k.linear() / residual.depth;
-  Eigen::Matrix<double, 2, 6> result;
-  result << -by_point * skew(residual.arm), view.share * by_point;
+/// The residual's derivatives, transposed, by a motion in the camera's frame.
+Eigen::Matrix<double, 6, 2> by_motion(const Residual& residual, const Observation& observation,
+                                      double share) {
+  const Eigen::Matrix2d by_offset = observation.pixel_by_normalised / residual.depth;
+  Eigen::Matrix<double, 6, 2> result;
+  for (int axis = 0; axis < 2; ++axis) {
+    const Eigen::Vector2d across = by_offset.row(axis);
+    const Eigen::Vector3d by_point(across.x(), across.y(), -across.dot(residual.normalised));
+    result.col(axis) << residual.arm.cross(by_point), share * by_point;
+  }
   return result;
 }
+
+/// Of log(1 + x), with a logarithm for many.
+class LogSum {
+ public:
+  void add(double x) {
+    constexpr double kNearlyFull = 1e150;
+    product_ *= 1 + x;
+    if (product_ < kNearlyFull) return;
+    sum_ += std::log(product_);
+    product_ = 1;
+  }
+  [[nodiscard]] double value() const { return sum_ + std::log(product_); }
+
+ private:
+  double product_ = 1, sum_ = 0;
+};
 
 /// The problem of one hypothesis.
 struct Problem {
@@ -69,46 +93,54 @@ struct Problem {
   const PointNoise& noise;
 };
 
-double picture_cost(const Problem& problem, const Moved& moved) {
+double picture_cost(const Problem& problem, const Twist& motion) {
   const double nu = problem.noise.degrees_of_freedom;
   const double sq_scale = nu * problem.sigma_px * problem.sigma_px;
   constexpr double kFarOff = 1e6;  // of a point that the picture cannot show
-  double sum = 0;
-  for (std::size_t i = 0; i < problem.image.observations.size(); ++i) {
-    const auto at = residual_of(problem.image.observations[i],
-                                problem.image.views[problem.image.view_of[i]], moved);
-    sum += std::log1p(at ? at->px.squaredNorm() / sq_scale : kFarOff);
+  const ImageFactor& image = problem.image;
+  const auto views = placed(image, problem.centroid, motion);
+  LogSum sum;
+  for (std::size_t i = 0; i < image.observations.size(); ++i) {
+    const auto at = residual_of(image.observations[i], problem.centroid, views[image.view_of[i]]);
+    sum.add(at ? at->px.squaredNorm() / sq_scale : kFarOff);
   }
-  return (nu + 2) * sum / problem.noise.points_per_observation;
+  return (nu + 2) * sum.value() / problem.noise.points_per_observation;
 }
 
 double cost_of(const Problem& problem, const Twist& motion) {
   const Twist astray = motion - problem.prior.mean;
-  return picture_cost(problem,
-                      {rotation_of(motion.head<3>()), motion.tail<3>(), problem.centroid}) +
-         astray.dot(problem.information * astray);
+  return picture_cost(problem, motion) + astray.dot(problem.information * astray);
 }
 
 struct NormalEquations {
-  Matrix6d H;
-  Twist b;
+  Matrix6d H = Matrix6d::Zero();
+  Twist b = Twist::Zero();
 };
 
 NormalEquations linearised(const Problem& problem, const Twist& motion) {
+  const ImageFactor& image = problem.image;
   const double nu = problem.noise.degrees_of_freedom;
   const double sq_sigma = problem.sigma_px * problem.sigma_px;
-  const Moved moved{rotation_of(motion.head<3>()), motion.tail<3>(), problem.centroid};
-  NormalEquations result{problem.information, problem.information * (problem.prior.mean - motion)};
-  for (std::size_t i = 0; i < problem.image.observations.size(); ++i) {
-    const Observation& observation = problem.image.observations[i];
-    const ImageView& view = problem.image.views[problem.image.view_of[i]];
-    const auto at = residual_of(observation, view, moved);
+  const auto views = placed(image, problem.centroid, motion);
+  std::vector<NormalEquations> in_camera(views.size());
+  for (std::size_t i = 0; i < image.observations.size(); ++i) {
+    const int view = image.view_of[i];
+    const auto at = residual_of(image.observations[i], problem.centroid, views[view]);
     if (!at) continue;
-    const Eigen::Matrix<double, 2, 6> J = by_motion(*at, observation, view);
+    const auto J = by_motion(*at, image.observations[i], image.views[view].share);
     const double weight =
         (nu + 2) / (nu * sq_sigma + at->px.squaredNorm()) / problem.noise.points_per_observation;
-    result.H.noalias() += weight * J.transpose() * J;
-    result.b.noalias() -= weight * J.transpose() * at->px;
+    const Eigen::Matrix<double, 6, 2> weighted = weight * J;
+    in_camera[view].H.noalias() += weighted * J.transpose();
+    in_camera[view].b.noalias() -= weighted * at->px;
+  }
+  NormalEquations result{problem.information, problem.information * (problem.prior.mean - motion)};
+  for (std::size_t view = 0; view < views.size(); ++view) {
+    Matrix6d turn = Matrix6d::Zero();
+    turn.topLeftCorner<3, 3>() = turn.bottomRightCorner<3, 3>() =
+        image.views[view].T_camera_lidar_k.linear();
+    result.H += turn.transpose() * in_camera[view].H * turn;
+    result.b += turn.transpose() * in_camera[view].b;
   }
   return result;
 }
@@ -134,11 +166,11 @@ Twist descend(const Problem& problem, Twist motion, double& cost) {
 }
 
 void count_inliers(const Problem& problem, MotionFit& fit) {
-  const Moved moved{rotation_of(fit.mean.head<3>()), fit.mean.tail<3>(), problem.centroid};
+  const ImageFactor& image = problem.image;
+  const auto views = placed(image, problem.centroid, fit.mean);
   double sum = 0;
-  for (std::size_t i = 0; i < problem.image.observations.size(); ++i) {
-    const auto at = residual_of(problem.image.observations[i],
-                                problem.image.views[problem.image.view_of[i]], moved);
+  for (std::size_t i = 0; i < image.observations.size(); ++i) {
+    const auto at = residual_of(image.observations[i], problem.centroid, views[image.view_of[i]]);
     if (!at || at->px.norm() > 3 * problem.noise.sigma_px) continue;
     ++fit.num_inliers;
     sum += at->px.squaredNorm();
@@ -177,13 +209,13 @@ MotionFit fit_motion(const ImageFactor& image, const Eigen::Vector3d& centroid,
 double measured_sigma_px(const ImageFactor& image, const Eigen::Vector3d& centroid,
                          const Twist& motion, const PointNoise& noise) {
   constexpr double kFinest_px = 0.1;
-  const Moved moved{rotation_of(motion.head<3>()), motion.tail<3>(), centroid};
+  const auto views = placed(image, centroid, motion);
   const double nu = noise.degrees_of_freedom;
   double sq_sigma = noise.sigma_px * noise.sigma_px;
   for (int round = 0; round < 5; ++round) {
     double sum = 0;
     for (std::size_t i = 0; i < image.observations.size(); ++i) {
-      const auto at = residual_of(image.observations[i], image.views[image.view_of[i]], moved);
+      const auto at = residual_of(image.observations[i], centroid, views[image.view_of[i]]);
       const double sq = at ? at->px.squaredNorm() : 1e6;
       sum += 0.5 * (nu + 2) / (nu + sq / sq_sigma) * sq;
     }
