@@ -14,9 +14,10 @@ template <int n, int m>
 [[nodiscard]] Eigen::Matrix<double, n, m> solved(const Eigen::Matrix<double, n, n>& A,
                                                  const Eigen::Matrix<double, n, m>& b);
 
-/// @brief The least X of those of least |A X - B|, for A of any rank.
-[[nodiscard]] Eigen::Matrix<double, 6, 6> least_norm_solved(const Eigen::Matrix<double, 6, 6>& A,
-                                                            const Eigen::Matrix<double, 6, 6>& B);
+/// @brief An X of A X = B, for A of any rank.
+/// @param A symmetric, semidefinite. @param B with columns in the range of A.
+[[nodiscard]] Eigen::Matrix<double, 6, 6> solved_in_range(const Eigen::Matrix<double, 6, 6>& A,
+                                                          const Eigen::Matrix<double, 6, 6>& B);
 
 template <int n>
 struct SymmetricEigen {

@@ -50,7 +50,7 @@ EgoStep fused(const EgoStep& a, const EgoStep& b) {
   EgoStep result = a;
   if (a.covariance.isZero(0)) return result;
   // A (A + B)^-1: both are symmetric.
-  const Matrix6d gain = least_norm_solved(a.covariance + b.covariance, a.covariance).transpose();
+  const Matrix6d gain = solved_in_range(a.covariance + b.covariance, a.covariance).transpose();
   const Matrix6d rest = Matrix6d::Identity() - gain;
   const Twist difference = log_se3(b.T_to_from * a.T_to_from.inverse());
   result.T_to_from = renormalized(exp_se3(Twist(gain * difference)) * a.T_to_from);
