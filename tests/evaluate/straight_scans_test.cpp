@@ -6,6 +6,7 @@
 
 #include <cmath>
 
+#include "evaluate/stamps.h"
 #include "objects/street_scan.h"
 
 namespace lidar_upsampling {
@@ -14,8 +15,6 @@ namespace {
 using testing::BoxObject;
 
 constexpr double kSpeed_mps = 12;
-
-Stamp at(double seconds) { return shifted(Stamp{}, 100 + seconds); }
 
 Pose place_at(double seconds) { return Pose(Eigen::Translation3d(kSpeed_mps * seconds, 0, 0)); }
 

@@ -6,12 +6,11 @@
 
 #include <fstream>
 
+#include "evaluate/stamps.h"
 #include "io/test_folder.h"
 
 namespace lidar_upsampling {
 namespace {
-
-Stamp at(double seconds) { return shifted(Stamp{}, 100 + seconds); }
 
 Pose moved_by(double x, double y) { return Pose(Eigen::Translation3d(x, y, 0)); }
 
