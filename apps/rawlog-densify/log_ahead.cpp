@@ -11,21 +11,24 @@
 namespace lidar_upsampling {
 namespace {
 
-// Besides its bytes: what a picture unpacks to, and the like.
-std::size_t unpacked_size(const mrpt::serialization::CSerializable& object) {
+// @param read the bytes that it was read from, which most objects are as large as.
+std::size_t size_of(const mrpt::serialization::CSerializable& object, std::size_t read) {
   constexpr std::size_t kObject = 1000;
-  std::size_t size = kObject;
-  if (const auto* const frame = dynamic_cast<const mrpt::obs::CSensoryFrame*>(&object))
-    for (const auto& observation : *frame) size += unpacked_size(*observation);
   const auto* const picture = dynamic_cast<const mrpt::obs::CObservationImage*>(&object);
-  if (picture != nullptr && !picture->image.isExternallyStored() && !picture->image.isEmpty())
-    size += picture->image.getRowStride() * picture->image.getHeight();
+  const bool is_unpacked =
+      picture != nullptr && !picture->image.isExternallyStored() && !picture->image.isEmpty();
+  if (is_unpacked) return kObject + picture->image.getRowStride() * picture->image.getHeight();
+  std::size_t size = kObject + read;
+  if (const auto* const frame = dynamic_cast<const mrpt::obs::CSensoryFrame*>(&object))
+    for (const auto& observation : *frame) size += size_of(*observation, 0);
   return size;
 }
 
 std::size_t weight_of(const RawlogEntry& entry) {
-  const std::size_t packed = entry.packed.ended ? entry.packed.ended->bytes.size() : 0;
-  return 2 * entry.bytes.size() + packed + unpacked_size(*entry.object);
+  const PackedMember* const member = entry.packed.ended.get();
+  const std::size_t packed = member != nullptr ? member->bytes.size() : 0;
+  const std::size_t read = entry.packed.is_all ? member->unpacked_size : entry.bytes.size();
+  return entry.bytes.size() + packed + size_of(*entry.object, read);
 }
 
 }  // namespace
@@ -37,6 +40,9 @@ const RawlogEntry* LogAhead::read_on() {
     is_at_end_ = true;
     return nullptr;
   }
+  const bool is_frame =
+      dynamic_cast<const mrpt::obs::CSensoryFrame*>(entry->object.get()) != nullptr;
+  if (copies_members_ && !is_frame) leave_bytes_to_member(*entry);  // a frame's are split
   indexer_.add(*entry->object);
   weight_ += weight_of(*entry);
   const auto stamp = stamp_of(*entry);
@@ -53,7 +59,7 @@ bool LogAhead::spans() const {
 }
 
 bool LogAhead::is_heavy() const {
-  constexpr std::size_t kMost = 150U << 20U;
+  constexpr std::size_t kMost = 100U << 20U;
   return weight_ >= kMost;
 }
 

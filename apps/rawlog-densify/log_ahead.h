@@ -16,8 +16,11 @@ namespace lidar_upsampling {
 class LogAhead {
  public:
   /// @param span_s how far to look ahead, by stamps, as long as that takes no more memory than
-  /// some 150 MB. @throw std::runtime_error the file cannot be opened.
-  LogAhead(const LogFile& log, double span_s) : reader_(log), indexer_(log.path), span_s_(span_s) {}
+  /// some 100 MB. @param copies_members what is written of it is packed as it was, where that can
+  /// be.
+  /// @throw std::runtime_error the file cannot be opened.
+  LogAhead(const LogFile& log, double span_s, bool copies_members = true)
+      : reader_(log), indexer_(log.path), copies_members_(copies_members), span_s_(span_s) {}
 
   /// @brief Reads one entry more. @return it, until next() gives it away; null at the log's end.
   /// @throw CorruptRawlog as RawlogReader::next().
@@ -47,6 +50,7 @@ class LogAhead {
 
   RawlogReader reader_;
   LogIndexer indexer_;
+  bool copies_members_;
   double span_s_;
   std::deque<RawlogEntry> waiting_;
   std::size_t weight_ = 0;  ///< of them, bytes in memory

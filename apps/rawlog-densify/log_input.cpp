@@ -50,7 +50,8 @@ bool is_from(const RawlogEntry& entry, Stamp stamp) {
 LogInput::LogInput(const DensifyJob& job, DensifyReport& report)
     : job_(job),
       report_(report),
-      log_({job.input, job.accept_truncated}, span_ahead_s(job.config)) {
+      log_({job.input, job.accept_truncated}, span_ahead_s(job.config),
+           job.config.compression == Compression::fast) {
   while (!log_.is_full())
     if (read_on() == nullptr) break;
 }

@@ -10,6 +10,7 @@
 #include "lidar_upsampling/io/output_file.h"
 #include "lidar_upsampling/io/packed_reader.h"
 #include "lidar_upsampling/io/packed_writer.h"
+#include "lidar_upsampling/io/rawlog_stream.h"
 #include "small_logs.h"
 #include "test_folder.h"
 
@@ -138,6 +139,26 @@ TEST_F(CopiedMembers, are_packed_anew_where_a_piece_is_another_or_missing) {
     EXPECT_TRUE(holds_member_of(path, {pieces_[0]}) && holds_member_of(path, {pieces_[1]}));
     EXPECT_FALSE(holds_member_of(path, {pieces_[2], pieces_[3]}));
   }
+}
+
+TEST_F(CopiedMembers, need_no_bytes_beside_them_where_they_hold_one_object) {
+  PackedReader reader(in_);
+  OutputFile file(out_), plain_file(folder_ / "plain");
+  PackedWriter writer(file, Compression::fast), plain(plain_file, Compression::none);
+  for (const Bytes& piece : pieces_) {
+    Bytes read(piece.size());
+    EXPECT_EQ(reader.Read(read.data(), read.size()), read.size());
+    RawlogEntry entry{nullptr, reader.take_record(), reader.place_in_members()};
+    leave_bytes_to_member(entry);
+    const bool shares = &piece == &pieces_[2] || &piece == &pieces_[3];
+    EXPECT_EQ(entry.bytes.capacity() > 0, shares);
+    writer.write(entry.bytes, entry.packed);
+    if (shares) continue;
+    EXPECT_THROW(plain.write(entry.bytes, entry.packed), std::logic_error);
+  }
+  writer.finish();
+  file.commit();
+  EXPECT_EQ(file_bytes(out_), file_bytes(in_));
 }
 
 TEST_F(CopiedMembers, let_others_come_between_pieces) {

@@ -24,6 +24,7 @@ struct PackedMember {
 struct PlaceInMembers {
   std::shared_ptr<const PackedMember> ended;  ///< the one that ends with it; null: none does
   bool goes_on = false;                       ///< the one that it ends in may be copied as a whole
+  bool is_all = false;                        ///< `ended` is, without looking at the object's bytes
 };
 
 }  // namespace lidar_upsampling

@@ -2,6 +2,7 @@
 // Copyright (c) 2026, the lidar_upsampling authors
 #include "lidar_upsampling/io/packed_writer.h"
 
+#include <stdexcept>
 #include <utility>
 
 #include "lidar_upsampling/io/output_file.h"
@@ -26,9 +27,11 @@ PackedWriter::~PackedWriter() {
 }
 
 void PackedWriter::write(const Bytes& bytes, const PlaceInMembers& origin) {
+  if (origin.is_all && !takes_members_)
+    throw std::logic_error("an object whose bytes are forgotten, to be packed otherwise");
   block_.insert(block_.end(), bytes.begin(), bytes.end());
-  if (takes_members_ && origin.ended && ends_with(block_, *origin.ended)) {
-    block_.resize(block_.size() - origin.ended->unpacked_size);
+  if (takes_members_ && origin.ended && (origin.is_all || ends_with(block_, *origin.ended))) {
+    if (!origin.is_all) block_.resize(block_.size() - origin.ended->unpacked_size);
     if (!block_.empty()) hand_over({std::exchange(block_, {}), nullptr});
     hand_over({{}, origin.ended});
     return;

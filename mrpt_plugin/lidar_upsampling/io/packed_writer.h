@@ -30,6 +30,7 @@ class PackedWriter {
 
   /// What is written at once stays in one gzip member.
   /// @param origin where it was read: of members that are written whole the packed bytes are taken.
+  /// If it `is_all`, there need be no other bytes.
   /// @throw std::runtime_error the system's reason, as "No space left on device", of this write or
   /// of one before.
   void write(const std::vector<std::uint8_t>& bytes, const PlaceInMembers& origin = {});

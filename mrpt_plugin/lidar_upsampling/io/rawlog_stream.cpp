@@ -209,6 +209,13 @@ RawlogEntry entry_of(const mrpt::serialization::CSerializable::Ptr& object) {
   return {object, bytes_of(*object)};
 }
 
+void leave_bytes_to_member(RawlogEntry& entry) {
+  const PackedMember* const member = entry.packed.ended.get();
+  if (member == nullptr || member->unpacked_size != entry.bytes.size()) return;
+  entry.packed.is_all = ends_with(entry.bytes, *member);
+  if (entry.packed.is_all) entry.bytes = std::vector<std::uint8_t>();  // {} would keep the memory
+}
+
 RawlogWriter::RawlogWriter(const std::string& path, bool overwrite, Compression compression)
     : own_(std::make_unique<OutputFile>(path, OutputOptions{overwrite})),
       packed_(std::make_unique<PackedWriter>(*own_, compression)) {}

@@ -22,7 +22,7 @@ class PackedWriter;
 class OutputFile;
 class PackedReader;
 
-/// One object of a log, with the very bytes it was read from.
+/// One object of a log, with the very bytes it was read from, or the gzip member that has them.
 struct RawlogEntry {
   mrpt::serialization::CSerializable::Ptr object;
   std::vector<std::uint8_t> bytes;
@@ -31,6 +31,10 @@ struct RawlogEntry {
 
 /// An object with the bytes it is written as (pictures without loss).
 [[nodiscard]] RawlogEntry entry_of(const mrpt::serialization::CSerializable::Ptr& object);
+
+/// @brief Forgets the bytes of an object where a gzip member holds these and nothing else: half of
+/// the memory that it takes. RawlogWriter copies the member, if it packs `fast`.
+void leave_bytes_to_member(RawlogEntry& entry);
 
 /// An observation's own stamp, or that of a frame's first one; none of what has no valid one.
 [[nodiscard]] std::optional<Stamp> stamp_of(const RawlogEntry& entry);
@@ -127,6 +131,7 @@ class RawlogWriter {
   void write(const mrpt::serialization::CSerializable& object);
   /// Copies an object untouched; a gzip member of such objects as it was packed, where all that it
   /// holds comes one after the other, and `fast` leaves the choice.
+  /// @throw std::logic_error only a member has its bytes, and members are not copied.
   void write(const RawlogEntry& entry);
   /// All is in the file. The last call to make, where that is the caller's.
   /// @throw std::runtime_error a write error
