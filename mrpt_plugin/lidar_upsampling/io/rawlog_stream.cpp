@@ -176,7 +176,7 @@ std::optional<std::string> RawlogReader::read_object(RawlogEntry& entry) {
       return "a frame holds something else than observations";
     return {};
   } catch (const std::exception& error) {
-    if (const auto defect = stream_->defect()) return defect;
+    if (auto defect = stream_->defect()) return defect;
     if (stream_->at_end()) return "the file ends in the middle of an object";
     return why_not_read(error);
   }
