@@ -71,7 +71,7 @@ Eigen::Matrix<double, 6, 2> by_motion(const Residual& residual, const Observatio
 class LogSum {
  public:
   void add(double x) {
-    constexpr double kNearlyFull = 1e150;
+    constexpr double kNearlyFull = 1e150;  // of 1e308: no term is as large as what is left
     product_ *= 1 + x;
     if (product_ < kNearlyFull) return;
     sum_ += std::log(product_);
