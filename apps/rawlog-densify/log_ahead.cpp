@@ -26,10 +26,8 @@ std::size_t size_of(const mrpt::serialization::CSerializable& object, std::size_
 
 std::size_t weight_of(const RawlogEntry& entry) {
   const std::size_t size = entry.bytes.size();
-  const PackedMember* const member = entry.packed.ended.get();
-  if (member == nullptr) return size + size_of(*entry.object, size);
-  const std::size_t read = entry.packed.is_all ? member->unpacked_size : size;
-  return size + member->bytes.size() + size_of(*entry.object, read);
+  const std::size_t read = entry.packed.is_all ? entry.packed.ended->unpacked_size : size;
+  return size + size_of(*entry.object, read);
 }
 
 }  // namespace

@@ -42,7 +42,7 @@ void remove_if_empty() {
 
 bool press_key_in_grabber() {
   if (!is_grabber()) return false;
-  rebind("_ZN4mrpt6system2os5kbhitEv", reinterpret_cast<void*>(pressed));
+  rebind({{"_ZN4mrpt6system2os5kbhitEv", reinterpret_cast<void*>(pressed)}});
   return true;
 }
 

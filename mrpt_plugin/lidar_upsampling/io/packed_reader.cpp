@@ -39,9 +39,9 @@ class PackedReader::Ahead {
   [[nodiscard]] std::deque<MemberEnd>& ends() { return ends_; }
   [[nodiscard]] std::uint64_t file_position() const { return current_.file_position; }
   [[nodiscard]] bool at_end() {
-    if (used_ < current_.bytes.size()) return false;
+    if (used_ < current_.size) return false;
     fetch();
-    return current_.bytes.empty();
+    return current_.size == 0;
   }
   /// Why there is no more, once there is none.
   [[nodiscard]] const std::optional<std::string>& defect() const { return current_.defect; }
@@ -62,7 +62,7 @@ class PackedReader::Ahead {
 
   std::size_t read(std::uint8_t* out, std::size_t count) {
     if (at_end()) return 0;
-    const std::size_t step = std::min(count, current_.bytes.size() - used_);
+    const std::size_t step = std::min(count, current_.size - used_);
     std::copy_n(current_.bytes.data() + used_, step, out);
     used_ += step;
     return step;
@@ -70,7 +70,8 @@ class PackedReader::Ahead {
 
  private:
   struct Block {
-    std::vector<std::uint8_t> bytes;  // none: the end
+    std::vector<std::uint8_t> bytes;
+    std::size_t size = 0;  // of them in use; none: the end
     std::uint64_t file_position = 0;
     std::optional<std::string> defect;
     std::vector<MemberEnd> ends;
@@ -80,24 +81,25 @@ class PackedReader::Ahead {
     std::unique_lock lock(mutex_);
     if (is_ended_) return;
     changed_.wait(lock, [this] { return !ready_.empty(); });
+    spare_.push_back(std::move(current_.bytes));  // to be filled anew without being cleared
     current_ = std::move(ready_.front());
     ready_.pop_front();
     ends_.insert(ends_.end(), current_.ends.begin(), current_.ends.end());
     used_ = 0;
-    is_ended_ = current_.bytes.empty();
+    is_ended_ = current_.size == 0;
     lock.unlock();
     changed_.notify_all();
   }
 
   void unpack() {
-    constexpr std::size_t kBlock = 1U << 20U, kMostReady = 4;
+    constexpr std::size_t kMostReady = 4;
     for (bool has_more = true; has_more;) {
       Block block;
-      block.bytes.resize(kBlock);
-      block.bytes.resize(unpacker_.unpack(block.bytes));
+      block.bytes = empty_block();
+      block.size = unpacker_.unpack(block.bytes);
       block.file_position = unpacker_.file_position();
       block.ends = unpacker_.take_ends();
-      has_more = !block.bytes.empty();
+      has_more = block.size > 0;
       if (!has_more) block.defect = unpacker_.defect();
       std::unique_lock lock(mutex_);
       changed_.wait(lock, [this] { return is_over_ || ready_.size() < kMostReady; });
@@ -106,6 +108,18 @@ class PackedReader::Ahead {
       lock.unlock();
       changed_.notify_all();
     }
+  }
+
+  std::vector<std::uint8_t> empty_block() {
+    constexpr std::size_t kBlock = 1U << 20U;
+    std::vector<std::uint8_t> bytes;
+    const std::lock_guard lock(mutex_);
+    if (!spare_.empty()) {
+      bytes = std::move(spare_.back());
+      spare_.pop_back();
+    }
+    bytes.resize(kBlock);
+    return bytes;
   }
 
   Unpacker unpacker_;
@@ -118,6 +132,7 @@ class PackedReader::Ahead {
   std::mutex mutex_;  // of what both use
   std::condition_variable changed_;
   std::deque<Block> ready_;
+  std::vector<std::vector<std::uint8_t>> spare_;
   bool is_over_ = false;
   std::thread thread_;
 };

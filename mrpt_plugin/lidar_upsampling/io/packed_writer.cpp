@@ -41,7 +41,9 @@ void PackedWriter::write(const Bytes& bytes, const PlaceInMembers& origin) {
 }
 
 const PackedWriter::Bytes& PackedWriter::packed(const Block& block) {
-  return block.packed ? block.packed->bytes : packer_->pack(block.bytes);
+  if (!block.packed) return packer_->pack(block.bytes);
+  block.packed->read(member_);
+  return member_;
 }
 
 void PackedWriter::hand_over(Block block) {

@@ -52,7 +52,8 @@ class PackedWriter {
   OutputFile& file_;                // the worker's
   std::unique_ptr<Packer> packer_;  // the worker's
   const bool takes_members_;
-  Bytes block_;  // that gathers
+  Bytes member_;  // the worker's: the last that was copied
+  Bytes block_;   // that gathers
 
   std::mutex mutex_;  // of what both threads use
   std::condition_variable changed_;

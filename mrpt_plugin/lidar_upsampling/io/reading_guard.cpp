@@ -20,6 +20,7 @@
 #include <stdexcept>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "lidar_upsampling/io/rebinding.h"
 
@@ -132,7 +133,7 @@ std::shared_ptr<mrpt::rtti::CObject> create_object(const mrpt::rtti::TRuntimeCla
 template <typename Class>
 class NeverNull {
  public:
-  static void rebind_reading(const char* symbol);
+  static void add_to(std::vector<Rebinding>& changes, const char* symbol);
 
  private:
   using Read = std::shared_ptr<Class>(mrpt::serialization::CArchive*);
@@ -146,28 +147,33 @@ class NeverNull {
   static inline Read* system_read = nullptr;
 };
 
+// A function that is not there needs no other.
 template <typename Function>
-void rebind_to(const char* symbol, Function* replacement, Function*& original) {
-  original = reinterpret_cast<Function*>(function_named(symbol));  // others may call it at once
-  if (original != nullptr) rebind(symbol, reinterpret_cast<void*>(replacement));
+void add_change(std::vector<Rebinding>& changes, const char* symbol, Function* replacement,
+                Function*& original) {
+  original = reinterpret_cast<Function*>(function_named(symbol));
+  if (original != nullptr) changes.push_back({symbol, reinterpret_cast<void*>(replacement)});
 }
 
 template <typename Class>
-void NeverNull<Class>::rebind_reading(const char* symbol) {
-  rebind_to(symbol, read, system_read);
+void NeverNull<Class>::add_to(std::vector<Rebinding>& changes, const char* symbol) {
+  add_change(changes, symbol, read, system_read);
 }
 
 void rebind_all() {
-  NeverNull<mrpt::obs::CAction>::rebind_reading(
-      "_ZN4mrpt13serialization8CArchive10ReadObjectINS_3obs7CActionEEENT_3PtrEv");
-  NeverNull<mrpt::poses::CPosePDF>::rebind_reading(
-      "_ZN4mrpt13serialization8CArchive10ReadObjectINS_5poses8CPosePDFEEENT_3PtrEv");
-  rebind_to("_Znwm", checked_new, system_new);
-  rebind_to("jpeg_std_error", throwing_jpeg_error, system_jpeg_error);
+  std::vector<Rebinding> changes{
+      {"_ZN4mrpt14aligned_mallocEmm", reinterpret_cast<void*>(aligned_malloc)},
+      {"_ZNK4mrpt4rtti15TRuntimeClassId12createObjectEv", reinterpret_cast<void*>(create_object)}};
+  NeverNull<mrpt::obs::CAction>::add_to(
+      changes, "_ZN4mrpt13serialization8CArchive10ReadObjectINS_3obs7CActionEEENT_3PtrEv");
+  NeverNull<mrpt::poses::CPosePDF>::add_to(
+      changes, "_ZN4mrpt13serialization8CArchive10ReadObjectINS_5poses8CPosePDFEEENT_3PtrEv");
+  add_change(changes, "_Znwm", checked_new, system_new);
+  add_change(changes, "jpeg_std_error", throwing_jpeg_error, system_jpeg_error);
   png_longjmp = reinterpret_cast<decltype(png_longjmp)>(function_named("png_longjmp"));
-  if (png_longjmp != nullptr) rebind_to("png_create_read_struct", make_quiet_png, system_make_png);
-  rebind("_ZN4mrpt14aligned_mallocEmm", reinterpret_cast<void*>(aligned_malloc));
-  rebind("_ZNK4mrpt4rtti15TRuntimeClassId12createObjectEv", reinterpret_cast<void*>(create_object));
+  if (png_longjmp != nullptr)
+    add_change(changes, "png_create_read_struct", make_quiet_png, system_make_png);
+  rebind(changes);  // only now: others may call the replacements at once
 }
 
 }  // namespace

@@ -26,11 +26,6 @@ constexpr std::uint32_t kCalled = 0, kAddressed = 0;
 constexpr bool kIsKnown = false;
 #endif
 
-struct Change {
-  const char* symbol;
-  void* replacement;
-};
-
 // Where the loader has put an object, and what it was told to fill in there.
 class LoadedObject {
  public:
@@ -45,15 +40,17 @@ class LoadedObject {
     }
   }
 
-  void apply(const Change& change) const {
+  void apply(const std::vector<Rebinding>& changes) const {
     if (symbols_ == nullptr || names_ == nullptr) return;
     for (const Table& table : {calls_, addresses_})
       for (std::size_t i = 0; i < table.size / sizeof(ElfW(Rela)); ++i) {
         const ElfW(Rela)& entry = table.begin[i];
         const std::uint32_t type = ELF64_R_TYPE(entry.r_info);
+        if (type != kCalled && type != kAddressed) continue;
         const char* const name = names_ + symbols_[ELF64_R_SYM(entry.r_info)].st_name;
-        if ((type == kCalled || type == kAddressed) && std::strcmp(name, change.symbol) == 0)
-          write(reinterpret_cast<void**>(base_ + entry.r_offset), change.replacement);
+        for (const Rebinding& change : changes)
+          if (std::strcmp(name, change.symbol) == 0)
+            write(reinterpret_cast<void**>(base_ + entry.r_offset), change.replacement);
       }
   }
 
@@ -91,11 +88,13 @@ class LoadedObject {
   Table calls_, addresses_;
 };
 
-int apply_to(dl_phdr_info* info, std::size_t, void* change) {
+using Changes = std::vector<Rebinding>;
+
+int apply_to(dl_phdr_info* info, std::size_t, void* changes) {
   constexpr int kGoOn = 0;
   // The kernel's own has a table that is not relocated, and calls nothing.
   const bool is_kernels = std::strstr(info->dlpi_name, "linux-vdso") != nullptr;
-  if (!is_kernels) LoadedObject(*info).apply(*static_cast<const Change*>(change));
+  if (!is_kernels) LoadedObject(*info).apply(*static_cast<const Changes*>(changes));
   return kGoOn;
 }
 
@@ -106,10 +105,10 @@ void* function_named(const char* symbol) {
   return function != nullptr ? function : dlsym(RTLD_NEXT, symbol);  // a module's own libraries
 }
 
-void rebind(const char* symbol, void* replacement) {
+void rebind(const std::vector<Rebinding>& changes) {
   if (!kIsKnown) return;
-  Change change{symbol, replacement};
-  dl_iterate_phdr(apply_to, &change);
+  Changes copy(changes);  // C's interface knows no const
+  dl_iterate_phdr(apply_to, &copy);
 }
 
 }  // namespace lidar_upsampling

@@ -2,9 +2,7 @@
 // Copyright (c) 2026, the lidar_upsampling authors
 #include "lidar_upsampling/io/unpacker.h"
 
-#include <fcntl.h>
 #include <isa-l/igzip_lib.h>
-#include <sys/stat.h>
 #include <unistd.h>
 #include <zstd.h>
 #include <zstd_errors.h>
@@ -54,20 +52,8 @@ std::string reason_of_zstd(std::size_t code) {
 
 }  // namespace
 
-void throw_open_error(const std::string& path, const char* purpose, int error_number) {
-  throw std::runtime_error("cannot open " + path + " for " + purpose + ": " +
-                           std::generic_category().message(error_number));
-}
-
-Unpacker::Unpacker(const std::string& path) : input_(kInput) {
-  struct stat info {};
-  file_ = open(path.c_str(), O_RDONLY | O_CLOEXEC);
-  if (file_ < 0 || fstat(file_, &info) != 0) throw_open_error(path, "reading", errno);
-  if (S_ISDIR(info.st_mode)) {
-    close(file_);
-    throw_open_error(path, "reading", EISDIR);
-  }
-  file_size_ = static_cast<std::uint64_t>(info.st_size);
+Unpacker::Unpacker(const std::string& path)
+    : file_(std::make_shared<const InputFile>(path)), input_(kInput) {
   if (starts_with(kGzip)) {
     kind_ = Kind::gzip;
     state_ = std::make_unique<inflate_state>();
@@ -82,7 +68,7 @@ Unpacker::Unpacker(const std::string& path) : input_(kInput) {
 
 void Unpacker::Free::operator()(ZSTD_DCtx_s* state) const { ZSTD_freeDCtx(state); }
 
-Unpacker::~Unpacker() { close(file_); }
+Unpacker::~Unpacker() = default;
 
 std::uint64_t Unpacker::file_position() const { return num_read_ - size_; }
 
@@ -100,7 +86,7 @@ bool Unpacker::refill() {
   std::copy_n(input_.begin() + static_cast<std::ptrdiff_t>(begin_), size_, input_.begin());
   begin_ = 0;
   while (size_ < input_.size()) {
-    const ssize_t got = read(file_, input_.data() + size_, input_.size() - size_);
+    const ssize_t got = read(file_->handle(), input_.data() + size_, input_.size() - size_);
     if (got < 0 && errno == EINTR) continue;
     if (got < 0) defect_ = "read error: " + std::generic_category().message(errno);
     if (got <= 0) break;
@@ -134,24 +120,16 @@ std::size_t Unpacker::copy(std::vector<std::uint8_t>& block) {
   return done;
 }
 
-void Unpacker::keep(const std::uint8_t* packed, std::size_t count,
-                    std::uint64_t unpacked_position) {
-  is_kept_ = is_kept_ && unpacked_position - sound_size_ <= PackedMember::kLargest;
-  if (is_kept_)
-    member_.insert(member_.end(), packed, packed + count);
-  else
-    member_.clear();
-}
-
 void Unpacker::end_member(std::uint64_t unpacked_position) {
-  MemberEnd end{unpacked_position, nullptr};
-  if (is_kept_)
-    end.member = std::make_shared<const PackedMember>(
-        PackedMember{member_, static_cast<std::size_t>(unpacked_position - sound_size_)});
-  if (keeps_members_) ends_.push_back(std::move(end));
-  member_.clear();
+  const std::uint64_t end = file_position();
+  const std::uint64_t unpacked_size = unpacked_position - sound_size_;
+  MemberEnd ended{unpacked_position, nullptr};
+  if (is_kept_ && file_->is_regular() && unpacked_size <= PackedMember::kLargest)
+    ended.member = std::make_shared<const PackedMember>(
+        PackedMember{file_, member_begin_, end - member_begin_, unpacked_size, state_->crc});
+  if (keeps_members_) ends_.push_back(std::move(ended));
   is_kept_ = keeps_members_;
-  member_begin_ = file_position();
+  member_begin_ = end;
   sound_size_ = unpacked_position;
 }
 
@@ -167,7 +145,6 @@ std::size_t Unpacker::inflate(std::vector<std::uint8_t>& block) {
     state.avail_out = static_cast<std::uint32_t>(block.size() - done);
     const int code = isal_inflate(&state);
     done = block.size() - state.avail_out;
-    keep(input_.data() + begin_, size_ - state.avail_in, unpacked_size_ + done);
     begin_ += size_ - state.avail_in;
     size_ = state.avail_in;
     if (code != ISAL_DECOMP_OK) return end(done, "the gzip stream is damaged: " + reason_of(code));
@@ -230,10 +207,10 @@ std::optional<std::uint64_t> Unpacker::resume() {
   if (kind_ != Kind::gzip || !defect_) return {};
   const std::uint64_t position = file_position();
   const bool is_between = position == member_begin_;
-  const auto next = next_gzip_member(file_, member_begin_ + (is_between ? 0 : 1), is_between);
-  if (!next || lseek(file_, static_cast<off_t>(next->from), SEEK_SET) < 0) return {};
+  const auto next =
+      next_gzip_member(file_->handle(), member_begin_ + (is_between ? 0 : 1), is_between);
+  if (!next || lseek(file_->handle(), static_cast<off_t>(next->from), SEEK_SET) < 0) return {};
   num_read_ = member_begin_ = next->from;
-  member_.clear();
   is_kept_ = keeps_members_ && next->has_header;
   sound_size_ = unpacked_size_;
   begin_ = size_ = 0;

@@ -16,10 +16,6 @@ struct ZSTD_DCtx_s;
 
 namespace lidar_upsampling {
 
-/// @brief The system's words for why a file cannot be used, "cannot open x for reading: ...".
-/// @throw std::runtime_error always.
-[[noreturn]] void throw_open_error(const std::string& path, const char* purpose, int error_number);
-
 /// Where a gzip member ended.
 struct MemberEnd {
   std::uint64_t unpacked_position = 0;
@@ -51,7 +47,8 @@ class Unpacker {
   [[nodiscard]] std::uint64_t unpacked_size() const { return unpacked_size_; }
   [[nodiscard]] std::uint64_t sound_size() const { return sound_size_; }
 
-  /// From here on gzip members are kept, too, for take_ends(); to be asked for before all else.
+  /// From here on tells where gzip members end, by take_ends(), and which may be read again; to be
+  /// asked for before all else.
   void keep_members() { keeps_members_ = is_kept_ = true; }
   /// Of those that have ended since the last call.
   [[nodiscard]] std::vector<MemberEnd> take_ends() { return std::exchange(ends_, {}); }
@@ -61,7 +58,7 @@ class Unpacker {
   [[nodiscard]] bool is_packed() const { return kind_ != Kind::plain; }
   [[nodiscard]] bool is_gzip() const { return kind_ == Kind::gzip; }
   [[nodiscard]] bool is_zstd() const { return kind_ == Kind::zstd; }
-  [[nodiscard]] std::uint64_t file_size() const { return file_size_; }
+  [[nodiscard]] std::uint64_t file_size() const { return file_->size(); }
   /// Bytes of the file that have been used.
   [[nodiscard]] std::uint64_t file_position() const;
 
@@ -76,13 +73,12 @@ class Unpacker {
   bool starts_with(const std::vector<std::uint8_t>& magic);
   std::size_t copy(std::vector<std::uint8_t>& block);
   std::size_t inflate(std::vector<std::uint8_t>& block);
-  void keep(const std::uint8_t* packed, std::size_t count, std::uint64_t unpacked_position);
   void end_member(std::uint64_t unpacked_position);
   std::size_t unpack_zstd(std::vector<std::uint8_t>& block);
   std::size_t end(std::size_t done, std::optional<std::string> defect);
 
-  int file_ = -1;
-  std::uint64_t file_size_ = 0, num_read_ = 0;
+  std::shared_ptr<const InputFile> file_;
+  std::uint64_t num_read_ = 0;
   std::uint64_t unpacked_size_ = 0, sound_size_ = 0;
   std::uint64_t member_begin_ = 0;  // of the file, where one begins or is to begin
   Kind kind_ = Kind::plain;
@@ -91,8 +87,7 @@ class Unpacker {
   std::size_t begin_ = 0, size_ = 0;  // of what is left of `input_`
   std::unique_ptr<inflate_state> state_;
   bool keeps_members_ = false;
-  std::vector<std::uint8_t> member_;  // so far
-  bool is_kept_ = false;              // whether it is all of the member
+  bool is_kept_ = false;  // whether the member has its header, and may be copied
   std::vector<MemberEnd> ends_;
   std::unique_ptr<ZSTD_DCtx_s, Free> zstd_;
   bool in_frame_ = false;
