@@ -31,7 +31,6 @@ bool is_one_from_the_start(const std::vector<const StreamInfo*>& ego, const LogI
 }  // namespace
 
 double span_ahead_s(const Config& config) {
-  constexpr double kLate_s = 0.5;
   return std::min(kMostEgoGap_s, config.ego_motion.max_interpolation_gap_s) + kLate_s;
 }
 

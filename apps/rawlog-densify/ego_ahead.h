@@ -10,6 +10,8 @@ namespace lidar_upsampling {
 constexpr double kMostEgoGap_s = 2;  ///< between samples, that is looked over
 constexpr double kEgoMemory_s = 5;   ///< what is longer past is forgotten
 
+constexpr double kLate_s = 0.5;  ///< that an observation may come behind others of its time
+
 /// How far to look ahead in a log: to an instant's next sample of the vehicle's motion, if it
 /// counts, and some more for observations that come late.
 [[nodiscard]] double span_ahead_s(const Config& config);

@@ -45,16 +45,42 @@ const RawlogEntry* LogAhead::read_on() {
   indexer_.add(*entry->object);
   weight_ += weight_of(*entry);
   const auto stamp = stamp_of(*entry);
-  if (stamp) newest_ = newest_ ? std::max(*newest_, *stamp) : *stamp;
+  if (stamp) {
+    newest_ = newest_ ? std::max(*newest_, *stamp) : *stamp;
+    const auto* const observation =
+        dynamic_cast<const mrpt::obs::CObservation*>(entry->object.get());
+    if (observation != nullptr) newest_of_[observation->sensorLabel] = *stamp;
+  }
   waiting_.push_back(std::move(*entry));
   return &waiting_.back();
 }
 
-bool LogAhead::spans() const {
-  if (span_s_ <= 0) return true;
+std::optional<Stamp> LogAhead::first_stamp() const {
   const auto first = std::find_if(waiting_.begin(), waiting_.end(),
                                   [](const RawlogEntry& entry) { return stamp_of(entry); });
-  return first != waiting_.end() && seconds_between(*stamp_of(*first), *newest_) >= span_s_;
+  if (first == waiting_.end()) return {};
+  return stamp_of(*first);
+}
+
+bool LogAhead::spans() const {
+  if (span_s_ <= 0) return true;
+  const auto first = first_stamp();
+  return first && seconds_between(*first, *newest_) >= span_s_;
+}
+
+void LogAhead::wait_for(const std::set<std::string>& labels, double late_s) {
+  awaited_ = labels;
+  late_s_ = late_s;
+}
+
+bool LogAhead::has_awaited() const {
+  const auto first = late_s_ ? first_stamp() : std::nullopt;
+  if (!first) return false;
+  const auto is_far = [&](Stamp newest) { return seconds_between(*first, newest) >= *late_s_; };
+  return is_far(*newest_) && std::all_of(awaited_.begin(), awaited_.end(), [&](const auto& label) {
+           const auto newest = newest_of_.find(label);
+           return newest != newest_of_.end() && is_far(newest->second);
+         });
 }
 
 bool LogAhead::is_heavy() const {

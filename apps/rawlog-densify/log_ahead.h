@@ -3,7 +3,9 @@
 #pragma once
 
 #include <deque>
+#include <map>
 #include <optional>
+#include <set>
 #include <string>
 
 #include "lidar_upsampling/io/log_index.h"
@@ -26,8 +28,10 @@ class LogAhead {
   /// @throw CorruptRawlog as RawlogReader::next().
   const RawlogEntry* read_on();
 
-  /// Whether the span is read; without one, whether there is an entry.
-  [[nodiscard]] bool is_full() const { return !waiting_.empty() && (spans() || is_heavy()); }
+  /// Whether the span is read, or what is waited for; without a span, whether there is an entry.
+  [[nodiscard]] bool is_full() const {
+    return !waiting_.empty() && (spans() || is_heavy() || has_awaited());
+  }
   /// Whether all that waits spans what it was to.
   [[nodiscard]] bool spans() const;
   /// Whether all entries have been read, if they have not been given away.
@@ -37,6 +41,9 @@ class LogAhead {
 
   /// For a log of which all is known otherwise. What has been read stays.
   void look_no_further() { span_s_ = 0; }
+  /// @brief From here on it is enough, short of the span, that all of these streams have been read
+  /// until `late_s` behind the first entry that waits. Without streams, that is the span.
+  void wait_for(const std::set<std::string>& labels, double late_s);
 
   [[nodiscard]] std::optional<RawlogEntry> next();
 
@@ -47,6 +54,8 @@ class LogAhead {
 
  private:
   [[nodiscard]] bool is_heavy() const;
+  [[nodiscard]] bool has_awaited() const;
+  [[nodiscard]] std::optional<Stamp> first_stamp() const;
 
   RawlogReader reader_;
   LogIndexer indexer_;
@@ -55,6 +64,9 @@ class LogAhead {
   std::deque<RawlogEntry> waiting_;
   std::size_t weight_ = 0;  ///< of them, bytes in memory
   std::optional<Stamp> newest_;
+  std::optional<double> late_s_;
+  std::set<std::string> awaited_;           ///< labels
+  std::map<std::string, Stamp> newest_of_;  ///< label: last stamp
   bool is_at_end_ = false;
 };
 

@@ -3,7 +3,10 @@
 #include "log_input.h"
 
 #include <algorithm>
+#include <filesystem>
+#include <set>
 #include <stdexcept>
+#include <string>
 #include <utility>
 
 #include "ego_ahead.h"
@@ -40,6 +43,15 @@ bool has_ego(EgoSource source, const LogIndex& index) {
   return true;
 }
 
+// Those whose stamps a run asks for ahead of their turn; none: it is not known which.
+std::optional<std::set<std::string>> awaited_streams(const LogIndex& index) {
+  if (index.has_frames) return {};
+  std::set<std::string> labels;
+  for (const StreamKind kind : {StreamKind::lidar, StreamKind::pose, StreamKind::odometry})
+    for (const StreamInfo* const stream : index.of_kind(kind)) labels.insert(stream->label);
+  return labels;
+}
+
 bool is_from(const RawlogEntry& entry, Stamp stamp) {
   const auto own = stamp_of(entry);
   return own && *own >= stamp;
@@ -59,10 +71,35 @@ LogInput::LogInput(const DensifyJob& job, DensifyReport& report)
 LogIndex LogInput::index(bool whole, const std::function<void(double)>& progress) {
   auto beginning = whole ? std::nullopt : index_of_beginning();
   knows_all_ = !beginning || log_.is_at_end();
-  if (beginning) return std::move(*beginning);
+  if (beginning) {
+    if (const auto labels = awaited_streams(*beginning)) log_.wait_for(*labels, kLate_s);
+    return std::move(*beginning);
+  }
   log_.look_no_further();
   LogIndex index = index_log({job_.input, job_.accept_truncated}, progress);
   take_poses_from_file(job_.config, job_.rig, index);
+  return index;
+}
+
+// None: it does not tell enough, or cannot be read again.
+std::optional<LogIndex> LogInput::index_of_heavy_beginning() const {
+  if (!std::filesystem::is_regular_file(job_.input)) return {};
+  RawlogReader reader({job_.input, job_.accept_truncated});
+  LogIndexer indexer(job_.input);
+  std::optional<Stamp> first, newest;
+  while (!first || seconds_between(*first, *newest) < span_ahead_s(job_.config)) {
+    const auto entry = reader.next();
+    if (!entry) break;
+    indexer.add(*entry->object);
+    const auto stamp = stamp_of(*entry);
+    if (!stamp) continue;
+    if (!first) first = stamp;
+    newest = newest ? std::max(*newest, *stamp) : *stamp;
+  }
+  LogIndex index = indexer.take_index();
+  // Of several the one with most samples counts, which may be another so far and later.
+  if (index.of_kind(StreamKind::pose).size() > 1 || index.of_kind(StreamKind::odometry).size() > 1)
+    return {};
   return index;
 }
 
@@ -74,7 +111,12 @@ std::optional<LogIndex> LogInput::index_of_beginning() {
     return index;
   }
   try {
-    if (!log_.spans() || asks_for_all(job_.config)) return {};
+    if (asks_for_all(job_.config)) return {};
+    if (!log_.spans()) {
+      auto heavy = index_of_heavy_beginning();
+      if (!heavy) return {};
+      index = std::move(*heavy);
+    }
     take_poses_from_file(job_.config, job_.rig, index);
     static_cast<void>(select_streams(index, job_.config, labels_of_calibrated(job_.rig)));
   } catch (const std::exception&) {

@@ -13,11 +13,11 @@ namespace lidar_upsampling {
 
 /// @brief A log as a run needs it: entry by entry, each told to the run a little ahead of its turn.
 ///
-/// What must be known of a log before work begins, its first seconds tell; where they do not, the
-/// log is read whole for it first: where a sensor comes up later, the ego-motion is by
-/// GNSS (a heading is found from fixes far around), the shortest time between scans is asked for
-/// (`scan_time = azimuth` without a period), a file has a pose per scan, samples may be joined
-/// over long gaps, or the first seconds are too large to be held.
+/// What must be known of a log before work begins, its first seconds tell, which are read twice
+/// where they are too large to be held; where they do not, the log is read whole for it first:
+/// where a sensor comes up later, the ego-motion is by GNSS (a heading is found from fixes far
+/// around), the shortest time between scans is asked for (`scan_time = azimuth` without a period),
+/// a file has a pose per scan, or samples may be joined over long gaps.
 class LogInput {
  public:
   /// @param job, report must outlive it; reading is timed in the report.
@@ -49,6 +49,7 @@ class LogInput {
   const RawlogEntry* read_on();
   void take_ego_from(Stamp stamp);
   [[nodiscard]] std::optional<LogIndex> index_of_beginning();
+  [[nodiscard]] std::optional<LogIndex> index_of_heavy_beginning() const;
 
   const DensifyJob& job_;
   DensifyReport& report_;

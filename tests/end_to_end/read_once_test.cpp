@@ -81,6 +81,32 @@ TEST(ReadOnce, a_log_without_ego_motion_comes_through_a_pipe_too) {
   expect_the_same_through_a_pipe(folder, "");
 }
 
+// Large pictures that nobody can use: no second and a half of them may wait. By the second run's
+// setting all of the log is known first.
+TEST(ReadOnce, a_log_too_heavy_to_be_held_gives_what_it_gives_when_all_of_it_is_known) {
+  const TestFolder folder;
+  HandMadeLog log;
+  log.num_images = log.num_instants = 48;
+  write_hand_made(folder / "light.rawlog", log);
+  log.calibrated = false;
+  CameraImage large = still_picture(log, 0);
+  large.camera.label = "LARGE";
+  large.bgr = cv::Mat::zeros(800, 1100, CV_8UC3);
+  RawlogWriter writer(folder / "in.rawlog", false);
+  for (const RawlogEntry& entry : read_log(folder / "light.rawlog")) {
+    writer.write(entry);
+    if (label_of(entry) != "CAM") continue;
+    large.stamp = *stamp_of(entry);
+    writer.write(*observation_from_image(large));
+  }
+  writer.commit();
+  densify(folder);
+  expect_done(densify_command(folder / "in.rawlog", folder / "known.rawlog",
+                              "--set ego_motion.max_interpolation_gap_s=3"));
+  EXPECT_TRUE(uncompressed(folder / "known.rawlog") == uncompressed(folder / "out.rawlog"));
+  EXPECT_EQ(with_label(observations_of(folder / "out.rawlog"), "LIDAR_VIRTUAL").size(), 32U);
+}
+
 TEST(ReadOnce, poses_that_only_come_at_the_end_of_a_log_are_used_from_the_start) {
   const TestFolder folder;
   write_changed(folder, [](std::vector<RawlogEntry>& entries) {

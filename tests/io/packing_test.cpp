@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <fstream>
 #include <random>
+#include <stdexcept>
 
 #include "lidar_upsampling/io/output_file.h"
 #include "lidar_upsampling/io/packed_reader.h"
@@ -159,6 +161,40 @@ TEST_F(CopiedMembers, need_no_bytes_beside_them_where_they_hold_one_object) {
   writer.finish();
   file.commit();
   EXPECT_EQ(file_bytes(out_), file_bytes(in_));
+}
+
+TEST_F(CopiedMembers, are_refused_where_somebody_has_written_to_the_file_since) {
+  PackedReader reader(in_);
+  Bytes read(pieces_[0].size());
+  ASSERT_EQ(reader.Read(read.data(), read.size()), read.size());
+  static_cast<void>(reader.take_record());
+  const auto member = reader.place_in_members().ended;
+  ASSERT_TRUE(member);
+  Bytes packed;
+  member->read(packed);
+  Bytes begin_of_file = file_bytes(in_);
+  begin_of_file.resize(member->size);
+  EXPECT_EQ(packed, begin_of_file);
+  const auto end_of_member = static_cast<std::streamoff>(member->begin + member->size);
+  std::fstream(in_, std::ios::in | std::ios::out).seekp(end_of_member - 6) << "xx";
+  EXPECT_THROW(member->read(packed), std::runtime_error);
+  std::filesystem::resize_file(in_, member->size / 2);
+  EXPECT_THROW(member->read(packed), std::runtime_error);
+}
+
+TEST_F(CopiedMembers, hold_one_large_object_and_none_of_the_small_ones_before) {
+  const std::vector<Bytes> pieces{some_bytes(300, 1), some_bytes(200, 2), some_bytes(kMember, 3),
+                                  some_bytes(100, 4), some_bytes(kMember, 5)};
+  write_file(folder_ / "mixed", Compression::fast, pieces);
+  EXPECT_EQ(uncompressed(folder_ / "mixed"), joined(pieces));
+  PackedReader reader(folder_ / "mixed");
+  for (const Bytes& piece : pieces) {
+    Bytes read(piece.size());
+    EXPECT_EQ(reader.Read(read.data(), read.size()), read.size());
+    RawlogEntry entry{nullptr, reader.take_record(), reader.place_in_members()};
+    leave_bytes_to_member(entry);
+    EXPECT_EQ(entry.bytes.empty(), piece.size() == kMember || &piece == &pieces[3]);
+  }
 }
 
 TEST_F(CopiedMembers, let_others_come_between_pieces) {

@@ -56,6 +56,7 @@ class OutputFile {
   void open_in(const std::string& folder, bool has_name);
   void link_as(const std::string& name, bool replace);
   void give_name();
+  void begin_sync();
   [[noreturn]] void fail(int error_number) const;
 
   std::string path_;
@@ -63,6 +64,7 @@ class OutputFile {
   OutputOptions options_;
   int file_ = -1;
   std::uint64_t size_ = 0;
+  std::uint64_t sent_ = 0;  ///< of them, on their way to the disk
   std::unique_ptr<TemporaryName> name_;
 };
 

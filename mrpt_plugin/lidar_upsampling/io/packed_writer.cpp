@@ -29,15 +29,19 @@ PackedWriter::~PackedWriter() {
 void PackedWriter::write(const Bytes& bytes, const PlaceInMembers& origin) {
   if (origin.is_all && !takes_members_)
     throw std::logic_error("an object whose bytes are forgotten, to be packed otherwise");
+  // So that who reads a scan or a picture knows it by its member alone.
+  const bool begins_one = takes_members_ && bytes.size() >= kMember && !waits_;
+  if (begins_one && !block_.empty()) hand_over({std::exchange(block_, {}), nullptr});
   block_.insert(block_.end(), bytes.begin(), bytes.end());
+  waits_ = false;
   if (takes_members_ && origin.ended && (origin.is_all || ends_with(block_, *origin.ended))) {
     if (!origin.is_all) block_.resize(block_.size() - origin.ended->unpacked_size);
     if (!block_.empty()) hand_over({std::exchange(block_, {}), nullptr});
     hand_over({{}, origin.ended});
     return;
   }
-  const bool waits = takes_members_ && origin.goes_on && block_.size() < PackedMember::kLargest;
-  if (block_.size() >= kMember && !waits) hand_over({std::exchange(block_, {}), nullptr});
+  waits_ = takes_members_ && origin.goes_on && block_.size() < PackedMember::kLargest;
+  if (block_.size() >= kMember && !waits_) hand_over({std::exchange(block_, {}), nullptr});
 }
 
 const PackedWriter::Bytes& PackedWriter::packed(const Block& block) {

@@ -52,8 +52,9 @@ class PackedWriter {
   OutputFile& file_;                // the worker's
   std::unique_ptr<Packer> packer_;  // the worker's
   const bool takes_members_;
-  Bytes member_;  // the worker's: the last that was copied
-  Bytes block_;   // that gathers
+  Bytes member_;        // the worker's: the last that was copied
+  Bytes block_;         // that gathers
+  bool waits_ = false;  // for the rest of a member that may be copied
 
   std::mutex mutex_;  // of what both threads use
   std::condition_variable changed_;

@@ -43,7 +43,7 @@ class LoadedObject {
   void apply(const std::vector<Rebinding>& changes) const {
     if (symbols_ == nullptr || names_ == nullptr) return;
     for (const Table& table : {calls_, addresses_})
-      for (std::size_t i = 0; i < table.size / sizeof(ElfW(Rela)); ++i) {
+      for (std::size_t i = table.first; i < table.size / sizeof(ElfW(Rela)); ++i) {
         const ElfW(Rela)& entry = table.begin[i];
         const std::uint32_t type = ELF64_R_TYPE(entry.r_info);
         if (type != kCalled && type != kAddressed) continue;
@@ -57,7 +57,8 @@ class LoadedObject {
  private:
   struct Table {
     const ElfW(Rela) * begin = nullptr;
-    std::size_t size = 0;  // bytes
+    std::size_t size = 0;   // bytes
+    std::size_t first = 0;  // entry that has a symbol
   };
 
   void read(const ElfW(Dyn) * item) {
@@ -69,6 +70,7 @@ class LoadedObject {
       if (item->d_tag == DT_PLTRELSZ) calls_.size = item->d_un.d_val;
       if (item->d_tag == DT_RELA) addresses_.begin = reinterpret_cast<const ElfW(Rela)*>(address);
       if (item->d_tag == DT_RELASZ) addresses_.size = item->d_un.d_val;
+      if (item->d_tag == DT_RELACOUNT) addresses_.first = item->d_un.d_val;
     }
   }
 

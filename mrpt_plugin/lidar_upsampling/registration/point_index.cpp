@@ -2,7 +2,6 @@
 // Copyright (c) 2026, the lidar_upsampling authors
 #include "lidar_upsampling/registration/point_index.h"
 
-#include <iterator>
 #include <nanoflann.hpp>
 
 namespace lidar_upsampling {
@@ -71,10 +70,11 @@ class NearestFew : public Result {
   }
   bool addPoint(float sq_distance, std::uint32_t index) {
     if (!(sq_distance < worstDist())) return true;
-    if (full()) found_.pop_back();
-    auto place = found_.end();
-    while (place != found_.begin() && std::prev(place)->sq_distance > sq_distance) --place;
-    found_.insert(place, {static_cast<int>(index), sq_distance});
+    if (!full()) found_.emplace_back();
+    std::size_t place = found_.size() - 1;  // of the farthest, which goes
+    for (; place > 0 && found_[place - 1].sq_distance > sq_distance; --place)
+      found_[place] = found_[place - 1];
+    found_[place] = {static_cast<int>(index), sq_distance};
     return true;
   }
 

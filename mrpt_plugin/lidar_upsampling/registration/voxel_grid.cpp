@@ -2,7 +2,6 @@
 // Copyright (c) 2026, the lidar_upsampling authors
 #include "lidar_upsampling/registration/voxel_grid.h"
 
-#include <cmath>
 #include <cstdint>
 #include <stdexcept>
 #include <string>
@@ -13,11 +12,11 @@ namespace {
 
 /// 21 bits per axis: enough for 100 km of 0.1 m cubes.
 std::uint64_t voxel_key(const Eigen::Vector3f& point, float per_metre) {
-  constexpr std::int64_t kOffset = 1 << 20;
+  constexpr double kOffset = 1 << 20;  // positive, what is cut off is the same as by std::floor
   constexpr std::int64_t kMask = (1 << 21) - 1;
   std::uint64_t key = 0;
   for (const float x : {point.x(), point.y(), point.z()}) {
-    const auto cell = static_cast<std::int64_t>(std::floor(x * per_metre)) + kOffset;
+    const auto cell = static_cast<std::int64_t>(static_cast<double>(x * per_metre) + kOffset);
     key = (key << 21) | static_cast<std::uint64_t>(cell & kMask);
   }
   return key;
