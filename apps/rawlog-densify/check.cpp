@@ -205,6 +205,7 @@ LogCheck check_log(const DensifyJob& job, const std::function<void(double)>& pro
   take_poses_from_file(job.config, job.rig, result.index);
   Checker checker(job, result);
   LogAhead log(file, goes_by ? span_ahead_s(job.config) : 0);
+  if (goes_by) log.wait_for(streams_ahead(result.index), kLate_s);
   for (std::size_t i = 0; i < result.index.num_objects; ++i) {
     while (!log.is_full() && log.read_on() != nullptr) {
       const EgoNews news = log.indexer().take_ego();

@@ -161,7 +161,7 @@ PartReport attempt(const DensifyJob& job, const LogPart& part, OutputFile& file,
     told = share;
     if (progress) progress(share);
   };
-  if (part.index != nullptr) input.know_all(part.ego_goes_by);
+  if (part.index != nullptr) input.know_all(*part.index, part.ego_goes_by);
   const LogIndex index =
       part.index != nullptr
           ? *part.index

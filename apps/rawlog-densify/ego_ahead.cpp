@@ -34,6 +34,13 @@ double span_ahead_s(const Config& config) {
   return std::min(kMostEgoGap_s, config.ego_motion.max_interpolation_gap_s) + kLate_s;
 }
 
+std::set<std::string> streams_ahead(const LogIndex& index) {
+  std::set<std::string> labels;
+  for (const StreamKind kind : {StreamKind::lidar, StreamKind::pose, StreamKind::odometry})
+    for (const StreamInfo* const stream : index.of_kind(kind)) labels.insert(stream->label);
+  return labels;
+}
+
 bool ego_goes_by(const Config& config, const LogIndex& streams) {
   if (config.ego_motion.max_interpolation_gap_s > kMostEgoGap_s || !config.pose_file.path.empty())
     return false;

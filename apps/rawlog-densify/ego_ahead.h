@@ -2,6 +2,9 @@
 // Copyright (c) 2026, the lidar_upsampling authors
 #pragma once
 
+#include <set>
+#include <string>
+
 #include "lidar_upsampling/config.h"
 #include "lidar_upsampling/io/log_index.h"
 
@@ -15,6 +18,10 @@ constexpr double kLate_s = 0.5;  ///< that an observation may come behind others
 /// How far to look ahead in a log: to an instant's next sample of the vehicle's motion, if it
 /// counts, and some more for observations that come late.
 [[nodiscard]] double span_ahead_s(const Config& config);
+
+/// The streams whose stamps are asked for ahead of their turn: of scans, and those that may tell
+/// the vehicle's motion.
+[[nodiscard]] std::set<std::string> streams_ahead(const LogIndex& index);
 
 /// @brief Whether the vehicle's motion can be taken while a log goes by, as samples close to an
 /// instant tell it; else all of it must be known first, which takes memory as the log is long.

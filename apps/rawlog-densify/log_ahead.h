@@ -30,7 +30,7 @@ class LogAhead {
 
   /// Whether the span is read, or what is waited for; without a span, whether there is an entry.
   [[nodiscard]] bool is_full() const {
-    return !waiting_.empty() && (spans() || is_heavy() || has_awaited());
+    return !waiting_.empty() && (spans() || (late_s_ ? has_awaited() : is_heavy()));
   }
   /// Whether all that waits spans what it was to.
   [[nodiscard]] bool spans() const;
@@ -41,9 +41,12 @@ class LogAhead {
 
   /// For a log of which all is known otherwise. What has been read stays.
   void look_no_further() { span_s_ = 0; }
-  /// @brief From here on it is enough, short of the span, that all of these streams have been read
-  /// until `late_s` behind the first entry that waits. Without streams, that is the span.
+  /// @brief From here on it is enough, short of the span, that the log and each of these streams
+  /// have been read until `late_s` behind the first entry that waits; but so much there must be,
+  /// whatever memory it takes.
   void wait_for(const std::set<std::string>& labels, double late_s);
+  /// Whether it is there.
+  [[nodiscard]] bool has_awaited() const;
 
   [[nodiscard]] std::optional<RawlogEntry> next();
 
@@ -54,7 +57,6 @@ class LogAhead {
 
  private:
   [[nodiscard]] bool is_heavy() const;
-  [[nodiscard]] bool has_awaited() const;
   [[nodiscard]] std::optional<Stamp> first_stamp() const;
 
   RawlogReader reader_;

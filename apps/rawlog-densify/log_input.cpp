@@ -4,9 +4,7 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <set>
 #include <stdexcept>
-#include <string>
 #include <utility>
 
 #include "ego_ahead.h"
@@ -43,15 +41,6 @@ bool has_ego(EgoSource source, const LogIndex& index) {
   return true;
 }
 
-// Those whose stamps a run asks for ahead of their turn; none: it is not known which.
-std::optional<std::set<std::string>> awaited_streams(const LogIndex& index) {
-  if (index.has_frames) return {};
-  std::set<std::string> labels;
-  for (const StreamKind kind : {StreamKind::lidar, StreamKind::pose, StreamKind::odometry})
-    for (const StreamInfo* const stream : index.of_kind(kind)) labels.insert(stream->label);
-  return labels;
-}
-
 bool is_from(const RawlogEntry& entry, Stamp stamp) {
   const auto own = stamp_of(entry);
   return own && *own >= stamp;
@@ -71,10 +60,7 @@ LogInput::LogInput(const DensifyJob& job, DensifyReport& report)
 LogIndex LogInput::index(bool whole, const std::function<void(double)>& progress) {
   auto beginning = whole ? std::nullopt : index_of_beginning();
   knows_all_ = !beginning || log_.is_at_end();
-  if (beginning) {
-    if (const auto labels = awaited_streams(*beginning)) log_.wait_for(*labels, kLate_s);
-    return std::move(*beginning);
-  }
+  if (beginning) return std::move(*beginning);
   log_.look_no_further();
   LogIndex index = index_log({job_.input, job_.accept_truncated}, progress);
   take_poses_from_file(job_.config, job_.rig, index);
@@ -119,6 +105,8 @@ std::optional<LogIndex> LogInput::index_of_beginning() {
     }
     take_poses_from_file(job_.config, job_.rig, index);
     static_cast<void>(select_streams(index, job_.config, labels_of_calibrated(job_.rig)));
+    if (!index.has_frames) log_.wait_for(streams_ahead(index), kLate_s);  // theirs are no streams
+    if (!log_.spans() && !log_.has_awaited()) return {};
   } catch (const std::exception&) {
     return {};
   }
@@ -126,10 +114,13 @@ std::optional<LogIndex> LogInput::index_of_beginning() {
   return index;
 }
 
-void LogInput::know_all(bool ego_goes_by) {
+void LogInput::know_all(const LogIndex& index, bool ego_goes_by) {
   knows_all_ = true;
   ego_goes_by_ = ego_goes_by;
-  if (!ego_goes_by) log_.look_no_further();
+  if (ego_goes_by)
+    log_.wait_for(streams_ahead(index), kLate_s);
+  else
+    log_.look_no_further();
 }
 
 void LogInput::take_ego_from(Stamp stamp) {

@@ -17,7 +17,8 @@ namespace lidar_upsampling {
 /// where they are too large to be held; where they do not, the log is read whole for it first:
 /// where a sensor comes up later, the ego-motion is by GNSS (a heading is found from fixes far
 /// around), the shortest time between scans is asked for (`scan_time = azimuth` without a period),
-/// a file has a pose per scan, or samples may be joined over long gaps.
+/// a file has a pose per scan, samples may be joined over long gaps, or not even what comes until
+/// the next scan and sample of ego-motion can be held.
 class LogInput {
  public:
   /// @param job, report must outlive it; reading is timed in the report.
@@ -31,7 +32,7 @@ class LogInput {
 
   /// @brief In place of index(), for a log whose index is known.
   /// @param ego_goes_by the vehicle's motion is not in it, and is taken while the log goes by.
-  void know_all(bool ego_goes_by);
+  void know_all(const LogIndex& index, bool ego_goes_by);
 
   /// @brief Passes over what comes before the first entry that has this stamp, or a later one.
   /// @throw std::runtime_error damaged

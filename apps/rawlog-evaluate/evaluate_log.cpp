@@ -7,7 +7,9 @@
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <stdexcept>
+#include <string>
 #include <utility>
 
 #include "key_scans.h"
@@ -232,8 +234,10 @@ LogResult evaluate_log(const EvaluationJob& job, const std::function<void(double
   const bool by_labels_alone = !indices.reference;
   const bool looks_ahead = indices.ego_goes_by && job.paper_row;
   Walk walk(job, indices, result);
+  const std::set<std::string> awaited = streams_ahead(indices.input);
   indices = {};  // of an hour some megabytes
   LogAhead log({job.input, job.accept_truncated}, looks_ahead ? span_ahead_s(job.paper.config) : 0);
+  if (looks_ahead) log.wait_for(awaited, kLate_s);
   for (;;) {
     while (!log.is_full() && log.read_on() != nullptr) {
       const EgoNews news = log.indexer().take_ego();
