@@ -33,19 +33,13 @@ VoxelGroups group_by_voxel(const std::vector<Eigen::Vector3f>& points, double si
   const auto per_metre = static_cast<float>(1 / side_m);
   std::unordered_map<std::uint64_t, int> number_of;
   std::vector<int> counts;
-  std::uint64_t last_key = 0;  // a scan's points follow one another: most are where the last was
-  int group = -1;
   for (const Eigen::Vector3f& point : points) {
-    const std::uint64_t key = voxel_key(point, per_metre);
-    if (group < 0 || key != last_key) {
-      const int next = static_cast<int>(counts.size());
-      const auto [place, is_new] = number_of.try_emplace(key, next);
-      group = place->second;
-      last_key = key;
-      if (is_new) {
-        groups.means.emplace_back(Eigen::Vector3f::Zero());
-        counts.push_back(0);
-      }
+    const int next = static_cast<int>(counts.size());
+    const auto [place, is_new] = number_of.try_emplace(voxel_key(point, per_metre), next);
+    const int group = place->second;
+    if (is_new) {
+      groups.means.emplace_back(Eigen::Vector3f::Zero());
+      counts.push_back(0);
     }
     groups.means[group] += point;
     ++counts[group];
