@@ -15,6 +15,7 @@
 #include "lidar_upsampling/tracks/log_odds.h"
 #include "lidar_upsampling/tracks/pieces.h"
 #include "lidar_upsampling/tracks/scan_factor.h"
+#include "lidar_upsampling/tracks/touching.h"
 
 namespace lidar_upsampling {
 namespace {
@@ -142,6 +143,7 @@ std::vector<int> take_up_scan(TrackStore& store, std::vector<ScanObject>& object
     return is_lost(track, scan.scan.stamp, options);
   };
   tracks.erase(std::remove_if(tracks.begin(), tracks.end(), lost), tracks.end());
+  part_touching(store, scan, options, objects);
   std::vector<int> track_of = associate(tracks, objects, scan, options);
   join_pieces(store, scan, options, objects, track_of);
   count_missed(store, track_of, scan, options);
@@ -185,13 +187,18 @@ bool is_predictable(const ObjectTrack& track, const TrackState& now, const Track
   return is_mover(track, options) && is_known_within(now, kReach_m);
 }
 
-std::vector<Eigen::Vector3f> points_by(const ObjectTrack& track, const TrackState& now,
-                                       const Pose& T_rest_lidar) {
+Eigen::Isometry3f from_sight(const ObjectTrack& track, const TrackState& now,
+                             const Pose& T_rest_lidar) {
   Twist motion = Twist::Zero();
   motion[2] = now.mean[2];
   motion.segment<2>(3) = now.mean.head<2>();
   const Pose T_rest_then = motion_pose(motion, track.centroid_rest) * track.T_rest_lidar;
-  const Eigen::Isometry3f T_lidar_then = (T_rest_lidar.inverse() * T_rest_then).cast<float>();
+  return (T_rest_lidar.inverse() * T_rest_then).cast<float>();
+}
+
+std::vector<Eigen::Vector3f> points_by(const ObjectTrack& track, const TrackState& now,
+                                       const Pose& T_rest_lidar) {
+  const Eigen::Isometry3f T_lidar_then = from_sight(track, now, T_rest_lidar);
   std::vector<Eigen::Vector3f> points;
   points.reserve(track.surface->points().size());
   for (const Eigen::Vector3f& point : track.surface->points())

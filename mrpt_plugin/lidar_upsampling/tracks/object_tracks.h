@@ -164,6 +164,10 @@ constexpr double kCar_m = 4;
 [[nodiscard]] bool is_predictable(const ObjectTrack& track, const TrackState& now,
                                   const TrackOptions& options);
 
+/// @brief T_lidar_then: from the lidar frame of its last sight to another, as it is predicted.
+[[nodiscard]] Eigen::Isometry3f from_sight(const ObjectTrack& track, const TrackState& now,
+                                           const Pose& T_rest_lidar);
+
 /// @brief Where its points are predicted, in another lidar frame.
 [[nodiscard]] std::vector<Eigen::Vector3f> points_by(const ObjectTrack& track,
                                                      const TrackState& now,

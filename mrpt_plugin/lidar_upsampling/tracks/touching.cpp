@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the lidar_upsampling authors
+#include "lidar_upsampling/tracks/touching.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <limits>
+#include <utility>
+
+#include "lidar_upsampling/objects/cluster_extent.h"
+
+namespace lidar_upsampling {
+namespace {
+
+constexpr int kLeastPoints = 8;  // as of a cluster
+
+/// A track that moves, or stands, for certain, with the state that it has when an object was seen.
+struct Claim {
+  const ObjectTrack* track;
+  TrackState now;
+  bool moves;
+  Eigen::Isometry3f T_then_lidar = Eigen::Isometry3f::Identity();
+};
+
+bool stands(const ObjectTrack& track, const TrackOptions& options) {
+  return track.latest_log_odds < -std::log(options.loss_ratio);
+}
+
+bool is_near(const Claim& claim, const ScanObject& object, const Pose& T_rest_lidar) {
+  const Eigen::Translation3d step(claim.now.mean[0], claim.now.mean[1], 0);
+  return (step * claim.track->centroid_rest - T_rest_lidar * object.centroid).norm() <
+         (object.length + claim.track->whole_length) / 2 + kReach_m;
+}
+
+/// Those who may have a part in the object; empty unless one moves.
+std::vector<Claim> claims_on(const ScanObject& object, const TrackStore& store,
+                             const TrackedScan& scan, const TrackOptions& options) {
+  std::vector<Claim> claims;
+  const Stamp instant = shifted(scan.scan.stamp, object.time_s);
+  for (const bool moving : {true, false}) {
+    for (const ObjectTrack& track : store.tracks) {
+      if (moving ? !is_mover(track, options) : !stands(track, options)) continue;
+      Claim claim{&track, track.latest, moving};
+      if (moving)
+        claim.now = predicted(track.latest, instant, options.noise);
+      else
+        claim.now.mean.head<3>().setZero();
+      if (!is_near(claim, object, scan.T_rest_lidar)) continue;
+      if (moving && !is_predictable(track, claim.now, options)) continue;
+      claims.push_back(std::move(claim));
+    }
+    if (claims.empty()) break;
+  }
+  return claims;
+}
+
+bool move_alike(const Claim& a, const Claim& b) {
+  constexpr double kSurely = 9.2;  // chi-squared of two dimensions: in one case of a hundred
+  if (!a.moves || !b.moves) return a.moves == b.moves;
+  const Eigen::Vector2d astray = a.now.velocity() - b.now.velocity();
+  const Eigen::Matrix2d P = a.now.covariance.block<2, 2>(3, 3) + b.now.covariance.block<2, 2>(3, 3);
+  return astray.dot(P.inverse() * astray) < kSurely;
+}
+
+/// Which motion each claim has: 0, 1, ...
+std::vector<int> motions_of(const std::vector<Claim>& claims) {
+  std::vector<int> motion_of(claims.size());
+  int num_motions = 0;
+  for (std::size_t i = 0; i < claims.size(); ++i) {
+    std::size_t like = 0;
+    while (!move_alike(claims[i], claims[like])) ++like;
+    motion_of[i] = like == i ? num_motions++ : motion_of[like];
+  }
+  return motion_of;
+}
+
+/// Squared distances of an object's points from where each motion's surfaces are predicted.
+using Distances = std::vector<std::vector<float>>;
+
+Distances distances(const ScanObject& object, const std::vector<Claim>& claims,
+                    const std::vector<int>& motion_of, const LidarScan& scan) {
+  const int num_motions = 1 + *std::max_element(motion_of.begin(), motion_of.end());
+  Distances result(num_motions, std::vector<float>(object.points.size(),
+                                                   std::numeric_limits<float>::infinity()));
+  for (std::size_t c = 0; c < claims.size(); ++c) {
+    for (std::size_t i = 0; i < object.points.size(); ++i) {
+      float& least = result[motion_of[c]][i];
+      const Eigen::Vector3f place = claims[c].T_then_lidar * scan.points[object.points[i]];
+      least = std::min(least, claims[c].track->surface->nearest(place).sq_distance);
+    }
+  }
+  return result;
+}
+
+/// The motion that is nearest to a point.
+std::size_t nearest(const Distances& distances, std::size_t point) {
+  std::size_t best = 0;
+  for (std::size_t m = 1; m < distances.size(); ++m)
+    if (distances[m][point] < distances[best][point]) best = m;
+  return best;
+}
+
+/// Leaves those motions that too few points lie on.
+void leave_out_unseen(Distances& distances, std::size_t num_points) {
+  std::vector<int> count(distances.size(), 0);
+  for (std::size_t i = 0; i < num_points; ++i) {
+    const std::size_t motion = nearest(distances, i);
+    count[motion] += static_cast<int>(distances[motion][i] < kReach_m * kReach_m);
+  }
+  for (std::size_t m = distances.size(); m-- > 0;)
+    if (count[m] < kLeastPoints) distances.erase(distances.begin() + static_cast<long>(m));
+}
+
+ScanObject part_of(const ScanObject& whole, std::vector<int> points, const LidarScan& scan) {
+  ScanObject part;
+  const ClusterExtent extent = cluster_extent(scan.points, {}, points);
+  part.centroid = extent.centroid.cast<double>();
+  part.length = extent.length;
+  part.class_name = whole.class_name;
+  if (whole.time_s != 0) {
+    for (const int i : points) part.time_s += scan.time_s[i];
+    part.time_s /= static_cast<double>(points.size());
+  }
+  part.points = std::move(points);
+  return part;
+}
+
+std::vector<ScanObject> parts_of(const ScanObject& object, std::vector<Claim>& claims,
+                                 const TrackedScan& scan) {
+  const std::vector<int> motion_of = motions_of(claims);
+  if (std::count(motion_of.begin(), motion_of.end(), 0) == static_cast<long>(claims.size()))
+    return {};
+  for (Claim& claim : claims)
+    claim.T_then_lidar = from_sight(*claim.track, claim.now, scan.T_rest_lidar).inverse();
+  Distances to = distances(object, claims, motion_of, scan.scan);
+  leave_out_unseen(to, object.points.size());
+  if (to.size() < 2) return {};
+  std::vector<std::vector<int>> points(to.size());
+  for (std::size_t i = 0; i < object.points.size(); ++i)
+    points[nearest(to, i)].push_back(object.points[i]);
+  std::vector<ScanObject> parts;
+  for (auto& some : points) parts.push_back(part_of(object, std::move(some), scan.scan));
+  return parts;
+}
+
+}  // namespace
+
+void part_touching(const TrackStore& store, const TrackedScan& scan, const TrackOptions& options,
+                   std::vector<ScanObject>& objects) {
+  std::vector<ScanObject> more;
+  for (ScanObject& object : objects) {
+    if (object.external_id >= 0) continue;  // the detector has parted it
+    std::vector<Claim> claims = claims_on(object, store, scan, options);
+    if (claims.size() < 2) continue;
+    std::vector<ScanObject> parts = parts_of(object, claims, scan);
+    if (parts.empty()) continue;
+    object = std::move(parts.front());
+    std::move(parts.begin() + 1, parts.end(), std::back_inserter(more));
+  }
+  std::move(more.begin(), more.end(), std::back_inserter(objects));
+}
+
+}  // namespace lidar_upsampling
