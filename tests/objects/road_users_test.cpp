@@ -64,6 +64,15 @@ TEST(RoadUsers, as_little_of_a_thing_in_the_midst_of_the_view_is_a_post) {
   EXPECT_EQ(num_found(depth_scan_of({{7, 0, -kGroundBelow_m}, 0.2, 0.2, 1.4, 0})), 0U);
 }
 
+TEST(RoadUsers, a_person_is_as_much_wider_than_seen_as_columns_are_apart) {
+  const auto upright = [](double height) {
+    // Seven columns show 27 cm of it.
+    return depth_scan_of({{13, 0.0227F, -kGroundBelow_m}, 0.2, 0.32, height, 0});
+  };
+  EXPECT_EQ(num_found(upright(1.8)), 1U);
+  EXPECT_EQ(num_found(upright(2.5)), 0U) << "a pole";
+}
+
 TEST(RoadUsers, what_is_none_has_its_reason) {
   const LidarScan scan = depth_scan_of(box_at(7, 0, 4));
   const SceneSegments segments = segment_scan(scan);

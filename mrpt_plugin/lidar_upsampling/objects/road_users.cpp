@@ -91,18 +91,30 @@ class Elevations {
 
 bool within(double value, double low, double high) { return value >= low && value <= high; }
 
-/// But for where it begins above the ground. What one ring shows reaches up to the next, `ring_m`.
-/// One that the sensor's view cuts off may be longer than it seems, `is_part`.
+/// How far apart beams are where a cluster lies, m.
+struct BeamGaps {
+  double ring = 0, column = 0;
+};
+
+bool is_person(const ClusterExtent& extent) {
+  return extent.length < 1.1F && within(extent.top, 1.2, 2.1);
+}
+
+/// But for where it begins above the ground. What one ring shows reaches up to the next, and a
+/// person half a step beyond the columns that show him; poles are taller. One that the sensor's
+/// view cuts off may be longer than it seems, `is_part`.
 const char* why_not_by_size(const ClusterExtent& extent, std::size_t num_points, bool has_ground,
-                            double ring_m, bool is_part, const ClusterDetectorOptions& options) {
+                            const BeamGaps& gaps, bool is_part,
+                            const ClusterDetectorOptions& options) {
   const double range = extent.centroid.head<2>().norm();
   if (static_cast<int>(num_points) < options.min_points) return "too_few_points";
   if (range < options.min_range) return "too_near";
   if (range > options.max_range) return "too_far";
-  if (!is_part && extent.length < options.min_length) return "too_short";
+  const double aside = is_person(extent) ? gaps.column : 0;
+  if (!is_part && extent.length + aside < options.min_length) return "too_short";
   if (extent.length > options.max_length) return "too_long";
   if (extent.width > options.max_width) return "too_wide";
-  const double reach = has_ground && extent.height() < ring_m / 2 ? ring_m : 0;
+  const double reach = has_ground && extent.height() < gaps.ring / 2 ? gaps.ring : 0;
   const double top = has_ground ? extent.top : extent.height();
   if (top + reach < (has_ground ? options.min_height : options.min_height / 2)) return "too_low";
   return top > options.max_height ? "too_high" : nullptr;
@@ -144,7 +156,7 @@ bool foot_is_hidden(const LidarScan& scan, const Ground& ground, const std::vect
 }
 
 const char* class_by_size(const ClusterExtent& extent) {
-  if (extent.length < 1.1F && within(extent.top, 1.2, 2.1)) return "person";
+  if (is_person(extent)) return "person";
   if (within(extent.length, 1.3, 5.5) && extent.width < 2.3F && within(extent.top, 1.1, 2.2)) {
     return "car";
   }
@@ -160,12 +172,16 @@ std::vector<const char*> why_no_road_users(const LidarScan& scan, const SceneSeg
   for (std::size_t i = 0; i < segments.clusters.size(); ++i) {
     const auto& cluster = segments.clusters[i];
     const ClusterExtent& extent = segments.extents[i];
-    const double ring_m = std::tan(segments.vertical_step_deg * kDegree) * extent.centroid.norm();
-    why.push_back(why_not_by_size(extent, cluster.size(), has_ground, ring_m,
+    const double range = extent.centroid.norm();
+    const BeamGaps gaps{
+        std::tan(segments.vertical_step_deg * kDegree) * range,
+        segments.horizontal_step_deg.value_or(ClusterOptions{}.horizontal_step_deg) * kDegree *
+            range};
+    why.push_back(why_not_by_size(extent, cluster.size(), has_ground, gaps,
                                   is_cut_off(scan, segments.horizontal_step_deg, cluster),
                                   options));
     // The ring below may just have missed it.
-    if (why.back() == nullptr && has_ground && extent.bottom > options.max_bottom + ring_m)
+    if (why.back() == nullptr && has_ground && extent.bottom > options.max_bottom + gaps.ring)
       afloat.push_back(i);
   }
   if (afloat.empty()) return why;
