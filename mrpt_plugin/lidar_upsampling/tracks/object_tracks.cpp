@@ -103,7 +103,8 @@ ObjectTrack new_track(const ScanObject& object, const TrackedScan& scan,
     track.beginnings.insert(
         2 * as_piece > alone ? track.beginnings.begin() : track.beginnings.end(),
         {whole.state, as_piece});
-  track.state = track.by_scans = track.beginnings.front().from;
+  track.state = track.beginnings.front().from;
+  track.by_scans = any;
   track.log_odds = log_odds_of(moves);
   return track;
 }
