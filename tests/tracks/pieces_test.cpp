@@ -101,6 +101,18 @@ TEST(Pieces, may_be_something_else) {
   EXPECT_LT(courses.front().probability, 0.99);
 }
 
+TEST(Pieces, go_as_pictures_tell_though_the_whole_goes_otherwise) {
+  ObjectTrack piece = second_piece_of_bus(10);
+  piece.latest = predicted(piece.latest, shifted(piece.stamp, 0.1), {});
+  piece.latest.mean.segment<2>(3) << -12, 1;
+  piece.latest.covariance.block<2, 2>(3, 3) = Eigen::Matrix2d::Identity();
+  piece.latest_log_odds = 7;
+  double as_told = 0;
+  for (const Course& course : courses_of(piece, {}))
+    if (course.from.velocity().x() < -11) as_told += course.probability;
+  EXPECT_GT(as_told, 0.9);
+}
+
 TEST(Pieces, are_not_told_of_what_comes_into_sight_beside_a_parked_bus) {
   const ObjectTrack piece = second_piece_of_bus(0);
   EXPECT_EQ(piece.id, 1);
