@@ -9,6 +9,7 @@
 #include "lidar_upsampling/tracks/scan_factor.h"
 
 #include "tracks/car_on_pictures.h"
+#include "tracks/objects_scan.h"
 
 namespace lidar_upsampling {
 namespace {
@@ -16,7 +17,7 @@ namespace {
 using testing::kStart;
 
 /// A scan of one wall of a bus along x, in pieces.
-struct BusScan {
+struct BusScan : testing::ObjectsScan {
   /// @param pieces where each begins, and its length.
   BusScan(double time_s, const std::vector<std::pair<double, double>>& pieces) {
     scan.stamp = shifted(kStart, time_s);
@@ -31,16 +32,6 @@ struct BusScan {
       objects.push_back(piece);
     }
   }
-  std::vector<int> take_up(TrackStore& store) {
-    return take_up_scan(store, objects, {scan, T_rest_lidar, step_covariance, seen, nullptr, {}},
-                        {});
-  }
-
-  LidarScan scan;
-  std::vector<ScanObject> objects;
-  Pose T_rest_lidar = Pose::Identity();
-  Matrix6d step_covariance = Matrix6d::Zero();
-  SeenSpace seen{{}, 0.4};
 };
 
 /// The track of the second piece of a bus that has been seen whole for some scans.

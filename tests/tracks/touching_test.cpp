@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "tracks/car_on_pictures.h"
+#include "tracks/objects_scan.h"
 #include "tracks/vehicle_surface.h"
 
 namespace lidar_upsampling {
@@ -22,7 +23,7 @@ Points shifted_by(Points points, double x, double y) {
 Points car_at(double x, double y) { return shifted_by(testing::vehicle(0, 4), x, y); }
 
 /// A scan whose clusters hold some things each.
-struct StreetScan {
+struct StreetScan : testing::ObjectsScan {
   StreetScan(double time_s, const std::vector<std::vector<Points>>& clusters) {
     scan.stamp = shifted(kStart, time_s);
     for (const std::vector<Points>& cluster : clusters) {
@@ -40,16 +41,6 @@ struct StreetScan {
       objects.push_back(object);
     }
   }
-  std::vector<int> take_up(TrackStore& store) {
-    return take_up_scan(store, objects, {scan, T_rest_lidar, step_covariance, seen, nullptr, {}},
-                        {});
-  }
-
-  LidarScan scan;
-  std::vector<ScanObject> objects;
-  Pose T_rest_lidar = Pose::Identity();
-  Matrix6d step_covariance = Matrix6d::Zero();
-  SeenSpace seen{{}, 0.4};
 };
 
 /// Where a car drives by, 8 m/s, x at a time.

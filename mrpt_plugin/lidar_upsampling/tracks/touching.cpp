@@ -141,6 +141,7 @@ std::vector<ScanObject> parts_of(const ScanObject& object, std::vector<Claim>& c
   for (std::size_t i = 0; i < object.points.size(); ++i)
     points[nearest(to, i)].push_back(object.points[i]);
   std::vector<ScanObject> parts;
+  parts.reserve(points.size());
   for (auto& some : points) parts.push_back(part_of(object, std::move(some), scan.scan));
   return parts;
 }
