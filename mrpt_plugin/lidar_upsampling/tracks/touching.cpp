@@ -2,6 +2,8 @@
 // Copyright (c) 2026, the lidar_upsampling authors
 #include "lidar_upsampling/tracks/touching.h"
 
+#include <tbb/parallel_for.h>
+
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -79,16 +81,16 @@ std::vector<int> motions_of(const std::vector<Claim>& claims) {
 /// Squared distances of an object's points from where each motion's surfaces are predicted.
 using Distances = std::vector<std::vector<float>>;
 
+/// @param far what is farther lies as far as that.
 Distances distances(const ScanObject& object, const std::vector<Claim>& claims,
-                    const std::vector<int>& motion_of, const LidarScan& scan) {
+                    const std::vector<int>& motion_of, const LidarScan& scan, float far) {
   const int num_motions = 1 + *std::max_element(motion_of.begin(), motion_of.end());
-  Distances result(num_motions, std::vector<float>(object.points.size(),
-                                                   std::numeric_limits<float>::infinity()));
+  Distances result(num_motions, std::vector<float>(object.points.size(), far));
   for (std::size_t c = 0; c < claims.size(); ++c) {
     for (std::size_t i = 0; i < object.points.size(); ++i) {
       float& least = result[motion_of[c]][i];
       const Eigen::Vector3f place = claims[c].T_then_lidar * scan.points[object.points[i]];
-      least = std::min(least, claims[c].track->surface->nearest(place).sq_distance);
+      least = std::min(least, claims[c].track->surface->nearest(place, least).sq_distance);
     }
   }
   return result;
@@ -102,15 +104,16 @@ std::size_t nearest(const Distances& distances, std::size_t point) {
   return best;
 }
 
-/// Leaves those motions that too few points lie on.
-void leave_out_unseen(Distances& distances, std::size_t num_points) {
+/// Whether enough points lie on each motion.
+std::vector<bool> are_seen(const Distances& distances, std::size_t num_points) {
   std::vector<int> count(distances.size(), 0);
   for (std::size_t i = 0; i < num_points; ++i) {
     const std::size_t motion = nearest(distances, i);
     count[motion] += static_cast<int>(distances[motion][i] < kReach_m * kReach_m);
   }
-  for (std::size_t m = distances.size(); m-- > 0;)
-    if (count[m] < kLeastPoints) distances.erase(distances.begin() + static_cast<long>(m));
+  std::vector<bool> result;
+  for (const int points : count) result.push_back(points >= kLeastPoints);
+  return result;
 }
 
 ScanObject part_of(const ScanObject& whole, std::vector<int> points, const LidarScan& scan) {
@@ -134,9 +137,13 @@ std::vector<ScanObject> parts_of(const ScanObject& object, std::vector<Claim>& c
     return {};
   for (Claim& claim : claims)
     claim.T_then_lidar = from_sight(*claim.track, claim.now, scan.T_rest_lidar).inverse();
-  Distances to = distances(object, claims, motion_of, scan.scan);
-  leave_out_unseen(to, object.points.size());
-  if (to.size() < 2) return {};
+  // Most are asked in vain: what is far is looked for only where two are near.
+  Distances to = distances(object, claims, motion_of, scan.scan, kReach_m * kReach_m);
+  const std::vector<bool> is_seen = are_seen(to, object.points.size());
+  if (std::count(is_seen.begin(), is_seen.end(), true) < 2) return {};
+  to = distances(object, claims, motion_of, scan.scan, std::numeric_limits<float>::max());
+  for (std::size_t m = to.size(); m-- > 0;)
+    if (!is_seen[m]) to.erase(to.begin() + static_cast<long>(m));
   std::vector<std::vector<int>> points(to.size());
   for (std::size_t i = 0; i < object.points.size(); ++i)
     points[nearest(to, i)].push_back(object.points[i]);
@@ -150,17 +157,17 @@ std::vector<ScanObject> parts_of(const ScanObject& object, std::vector<Claim>& c
 
 void part_touching(const TrackStore& store, const TrackedScan& scan, const TrackOptions& options,
                    std::vector<ScanObject>& objects) {
-  std::vector<ScanObject> more;
-  for (ScanObject& object : objects) {
-    if (object.external_id >= 0) continue;  // the detector has parted it
-    std::vector<Claim> claims = claims_on(object, store, scan, options);
-    if (claims.size() < 2) continue;
-    std::vector<ScanObject> parts = parts_of(object, claims, scan);
-    if (parts.empty()) continue;
-    object = std::move(parts.front());
-    std::move(parts.begin() + 1, parts.end(), std::back_inserter(more));
+  std::vector<std::vector<ScanObject>> parts(objects.size());
+  tbb::parallel_for(std::size_t{0}, objects.size(), [&](std::size_t i) {
+    if (objects[i].external_id >= 0) return;  // the detector has parted it
+    std::vector<Claim> claims = claims_on(objects[i], store, scan, options);
+    if (claims.size() > 1) parts[i] = parts_of(objects[i], claims, scan);
+  });
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    if (parts[i].empty()) continue;
+    objects[i] = std::move(parts[i].front());
+    std::move(parts[i].begin() + 1, parts[i].end(), std::back_inserter(objects));
   }
-  std::move(more.begin(), more.end(), std::back_inserter(objects));
 }
 
 }  // namespace lidar_upsampling
