@@ -112,6 +112,7 @@ std::vector<bool> are_seen(const Distances& distances, std::size_t num_points) {
     count[motion] += static_cast<int>(distances[motion][i] < kReach_m * kReach_m);
   }
   std::vector<bool> result;
+  result.reserve(count.size());
   for (const int points : count) result.push_back(points >= kLeastPoints);
   return result;
 }
