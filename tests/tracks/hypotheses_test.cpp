@@ -49,14 +49,15 @@ Twist to_the_side(double y) {
 }
 
 ImageFactor picture_of(const Twist& motion, unsigned seed = 1,
-                       const Eigen::Vector3d& car_at = Eigen::Vector3d::Zero()) {
+                       const Eigen::Vector3d& car_at = Eigen::Vector3d::Zero(),
+                       double noise_px = 0.3) {
   std::mt19937 random(seed);
   std::normal_distribution<double> normal;
   auto points = car();
   for (Eigen::Vector3d& point : points) point += car_at;
   auto seen = seen_on(ahead(), points, motion);
   for (Observation& observation : seen)
-    observation.normalised += Eigen::Vector2d(0.3 * normal(random), 0.3 * normal(random)) / 700;
+    observation.normalised += noise_px * Eigen::Vector2d(normal(random), normal(random)) / 700;
   ImageFactor image;
   image.add({ahead(), 1, Eigen::Vector3d::Zero()}, seen);
   return image;
@@ -77,7 +78,7 @@ ObjectTrack track_that_may_go_anywhere() {
   return track;
 }
 
-// A picture taken soon tells little of how far something straight ahead has gone.
+// A noisy picture taken soon tells little of how far something straight ahead has gone.
 TEST(Hypotheses, a_new_object_goes_as_fast_as_the_traffic_if_the_picture_does_not_say_otherwise) {
   Twist truth = Twist::Zero();
   truth[3] = 0.6;
@@ -85,8 +86,8 @@ TEST(Hypotheses, a_new_object_goes_as_fast_as_the_traffic_if_the_picture_does_no
   for (unsigned seed = 0; seed < 20; ++seed) {
     MotionQuestion question = question_after(0.03);
     const auto error = [&] {
-      return std::abs(estimate_motion(track_that_may_go_anywhere(), picture_of(truth, seed),
-                                      question, {truth}, {})
+      const ImageFactor image = picture_of(truth, seed, Eigen::Vector3d::Zero(), 0.6);
+      return std::abs(estimate_motion(track_that_may_go_anywhere(), image, question, {truth}, {})
                           .moving.mean[3] -
                       truth[3]);
     };
@@ -134,6 +135,19 @@ TEST(Hypotheses, however_many_points_agree_a_picture_tells_no_more_than_its_comm
   EXPECT_GT(answer.moving.covariance(4, 4), shift_m * shift_m);
   EXPECT_GT(answer.moving.covariance(3, 3), 4 * answer.moving.covariance(4, 4))
       << "coming nearer is seen by how an object grows, which is less sure than where it is";
+}
+
+TEST(Hypotheses, how_an_object_grows_tells_the_less_the_more_its_points_scatter) {
+  Twist truth = Twist::Zero();
+  truth[3] = 0.6;
+  ObjectTrack track = known_track(6, 5);
+  track.state.covariance(3, 3) = 9;
+  const auto sigma_m = [&](double noise_px) {
+    const ImageFactor image = picture_of(truth, 1, Eigen::Vector3d::Zero(), noise_px);
+    return std::sqrt(
+        estimate_motion(track, image, question_after(0.1), {truth}, {}).moving.covariance(3, 3));
+  };
+  EXPECT_GT(sigma_m(0.4), 1.6 * sigma_m(0.15));
 }
 
 TEST(Hypotheses, that_few_points_are_found_again_is_a_sign_of_a_wrong_place) {

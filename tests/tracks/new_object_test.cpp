@@ -73,7 +73,7 @@ TEST(NewObject, may_go_anywhere_or_along_our_road_or_along_its_own_sides) {
   EXPECT_NEAR(aside, 0.25, 1e-9);
 }
 
-// A picture taken soon tells little of how far something has come nearer.
+// A noisy picture taken soon tells little of how far something has come nearer.
 TEST(NewObject, comes_nearer_as_its_sides_tell_where_the_picture_does_not) {
   const ObjectTrack track = first_sight(0);
   ObjectTrack of_no_shape = track;
@@ -87,7 +87,7 @@ TEST(NewObject, comes_nearer_as_its_sides_tell_where_the_picture_does_not) {
   double by_sides_m = 0, by_picture_m = 0;
   for (unsigned seed = 0; seed < 20; ++seed) {
     std::mt19937 random(seed);
-    std::normal_distribution<double> noise(0, 0.3 / 700);
+    std::normal_distribution<double> noise(0, 0.6 / 700);
     std::vector<Observation> seen;
     for (const Eigen::Vector3d& point : crossing_car()) {
       const Eigen::Vector3d at = T * point;

@@ -15,9 +15,10 @@ Matrix6d ego_error(const MotionQuestion& question) {
   return by_twist * question.ego_covariance * by_twist.transpose();
 }
 
-Matrix6d picture_error(const MotionQuestion& question, const ImageFactor& image,
+Matrix6d picture_error(const MotionQuestion& question, const ImageFactor& image, double sigma_px,
                        const TrackOptions& options) {
-  constexpr double kPatch_px = 5;  // a single point is as wide as its patch
+  constexpr double kPatch_px = 5;     // a single point is as wide as its patch
+  constexpr double kOfScatter = 0.5;  // no unit
   const double range = question.centroid.norm(), m_per_px = range / question.focal_px;
   const Eigen::Vector3d ahead = question.centroid / range;
   const auto count = static_cast<double>(image.observations.size());
@@ -28,7 +29,7 @@ Matrix6d picture_error(const MotionQuestion& question, const ImageFactor& image,
   for (const Observation& seen : image.observations)
     sq_width += ahead.cross(seen.point_in_source - middle).squaredNorm() / count;
   const double sq_shift = std::pow(options.common_error_px * m_per_px, 2);
-  const double sq_share = sq_shift / sq_width;  // of its size
+  const double sq_share = std::pow(kOfScatter * sigma_px * m_per_px, 2) / sq_width;  // of its size
   Matrix6d error = Matrix6d::Zero();
   error.diagonal() << Eigen::Vector3d::Constant(sq_share), Eigen::Vector3d::Constant(sq_shift);
   error.bottomRightCorner<3, 3>() += sq_share * range * range * ahead * ahead.transpose();

@@ -183,8 +183,12 @@ MotionAnswer estimate_motion(const ObjectTrack& track, const ImageFactor& image,
   MotionExpected parked{Twist::Zero(), ego_error(question)};
   parked.covariance.diagonal().array() += kLeastTurn * kLeastTurn;
   const bool is_shown = !image.observations.empty();
-  const Matrix6d of_picture =
-      is_shown ? picture_error(question, image, options) : Matrix6d(Matrix6d::Zero());
+  Matrix6d of_picture = Matrix6d::Zero();
+  MotionFit of_any;
+  if (is_shown) {
+    of_any = fit_of_any(track, image, question, parked.covariance, starts, options);
+    of_picture = picture_error(question, image, of_any.sigma_px, options);
+  }
   parked.covariance += of_picture;
   const std::vector<Way> ways = ways_of(track, question, parked.covariance, options);
   MotionAnswer answer;
@@ -192,8 +196,8 @@ MotionAnswer estimate_motion(const ObjectTrack& track, const ImageFactor& image,
   take(ways.front(), answer);
   answer.parked.covariance = parked.covariance;
   if (is_shown)
-    learn(evidence_of_picture(track.stamp, image, question, ways, parked, starts, options), ways,
-          parked, of_picture, question, answer);
+    learn(evidence_of_picture(image, question, ways, parked, of_any, starts, options), ways, parked,
+          of_picture, question, answer);
   if (!answer.is_seen && ways.front().is_told) {
     take(ways.front(), answer);
     answer.log_odds = track.latest_log_odds;

@@ -199,6 +199,7 @@ MotionFit fit_motion(const ImageFactor& image, const Eigen::Vector3d& centroid,
     fit.cost = cost;
     fit.mean = mode;
   }
+  fit.sigma_px = sigma_px;
   const Matrix6d H = linearised(problem, fit.mean).H;
   fit.covariance = inverse(H);
   fit.log_evidence = -0.5 * (fit.cost + std::log(determinant(H * prior.covariance)));

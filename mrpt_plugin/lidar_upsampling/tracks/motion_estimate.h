@@ -52,6 +52,7 @@ struct MotionFit {
   double log_evidence = 0;  ///< by Laplace's approximation, but for a constant of the observations
   int num_inliers = 0;      ///< within three sigmas
   double rmse_px = 0;       ///< of the inliers
+  double sigma_px = 0;      ///< scatter of the points, per axis, that was taken
 };
 
 /// @brief The mode of prior and picture, from the likeliest of several starts, by Gauss-Newton with

@@ -41,7 +41,7 @@ double log_odds_of_wrong(const Agreement& most, const TrackOptions& options) {
 }
 
 /// Points at wrong places are anywhere, or on what stands behind a mover.
-/// @param of_any log-evidence of points of which nothing is expected.
+/// @param of_any log-evidence if nothing is expected of them.
 void weigh(const std::vector<Way>& ways, double of_any, double odds_of_wrong,
            PictureEvidence& evidence) {
   const double log_right = -std::log1p(std::exp(odds_of_wrong));
@@ -63,9 +63,23 @@ void weigh(const std::vector<Way>& ways, double of_any, double odds_of_wrong,
 
 }  // namespace
 
-PictureEvidence evidence_of_picture(Stamp stamp, const ImageFactor& image,
-                                    const MotionQuestion& question, const std::vector<Way>& ways,
-                                    const MotionExpected& parked, const std::vector<Twist>& starts,
+MotionFit fit_of_any(const ObjectTrack& track, const ImageFactor& image,
+                     const MotionQuestion& question, const Matrix6d& of_ego,
+                     std::vector<Twist> starts, const TrackOptions& options) {
+  const auto expected_of = [&](const TrackState& now) {
+    return expected_motion(now, question.R_rest_lidar_k,
+                           seconds_between(track.stamp, question.instant), options);
+  };
+  starts.push_back(expected_of(track.expected_at(question.instant, options.noise)).mean);
+  MotionExpected any = expected_of(
+      predicted(new_track_state(track.stamp, options.noise), question.instant, options.noise));
+  any.covariance += of_ego;
+  return fit_with_scatter(image, question.centroid, any, starts, options.points);
+}
+
+PictureEvidence evidence_of_picture(const ImageFactor& image, const MotionQuestion& question,
+                                    const std::vector<Way>& ways, const MotionExpected& parked,
+                                    const MotionFit& of_any, const std::vector<Twist>& starts,
                                     const TrackOptions& options) {
   const auto fit = [&](const MotionExpected& prior, const std::vector<Twist>& from) {
     return fit_with_scatter(image, question.centroid, prior, from, options.points);
@@ -81,12 +95,7 @@ PictureEvidence evidence_of_picture(Stamp stamp, const ImageFactor& image,
         agreement(evidence.moving.back(), way.expected, question.num_followed, options);
     if (now.agree > most.agree) most = now;
   }
-  MotionExpected any = expected_motion(
-      predicted(new_track_state(stamp, options.noise), question.instant, options.noise),
-      question.R_rest_lidar_k, seconds_between(stamp, question.instant), options);
-  any.covariance += parked.covariance;
-  weigh(ways, fit(any, {evidence.moving.front().mean}).log_evidence,
-        log_odds_of_wrong(most, options), evidence);
+  weigh(ways, of_any.log_evidence, log_odds_of_wrong(most, options), evidence);
   return evidence;
 }
 

@@ -25,16 +25,21 @@ struct PictureEvidence {
   double log_parked = 0, log_moving = 0;  ///< evidence
 };
 
+/// @brief What the picture tells if nothing is expected of the object.
+/// @param of_ego the ego-motion's error.
+/// @param starts as below; the track's own motion is one besides.
+[[nodiscard]] MotionFit fit_of_any(const ObjectTrack& track, const ImageFactor& image,
+                                   const MotionQuestion& question, const Matrix6d& of_ego,
+                                   std::vector<Twist> starts, const TrackOptions& options);
+
 /// @brief Fits every hypothesis to the picture, and weighs them: rightly asked, or with points that
 /// were found at wrong places.
-/// @param stamp of the object's sight.
 /// @param parked, ways what is expected, with all that the points may have wrong alike.
+/// @param of_any as above.
 /// @param starts motions from which the picture may be explained, besides.
-[[nodiscard]] PictureEvidence evidence_of_picture(Stamp stamp, const ImageFactor& image,
-                                                  const MotionQuestion& question,
-                                                  const std::vector<Way>& ways,
-                                                  const MotionExpected& parked,
-                                                  const std::vector<Twist>& starts,
-                                                  const TrackOptions& options);
+[[nodiscard]] PictureEvidence evidence_of_picture(
+    const ImageFactor& image, const MotionQuestion& question, const std::vector<Way>& ways,
+    const MotionExpected& parked, const MotionFit& of_any, const std::vector<Twist>& starts,
+    const TrackOptions& options);
 
 }  // namespace lidar_upsampling
