@@ -248,6 +248,9 @@ template <typename T>
 [[nodiscard]] std::vector<Eigen::Vector3f> points_at(const LidarScan& scan,
                                                      const std::vector<int>& indices);
 
+/// Mean of the chosen points' times; 0 without times or points.
+[[nodiscard]] double mean_time(const std::vector<float>& times, const std::vector<int>& points);
+
 /// Whether the object is moved by a motion of its own.
 [[nodiscard]] inline bool moves(const ObjectMotion& object) {
   return object.status == MotionStatus::moving || object.status == MotionStatus::predicted;

@@ -114,11 +114,4 @@ void deskew(LidarScan& scan, const std::vector<float>& times, const LidarPath& p
   scan.time_s = times;
 }
 
-double mean_time(const std::vector<float>& times, const std::vector<int>& points) {
-  if (times.empty() || points.empty()) return 0;
-  double sum = 0;
-  for (const int i : points) sum += times[static_cast<std::size_t>(i)];
-  return sum / static_cast<double>(points.size());
-}
-
 }  // namespace lidar_upsampling

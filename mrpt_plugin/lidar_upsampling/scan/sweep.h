@@ -58,7 +58,4 @@ using LidarPath = std::function<Pose(double)>;
 /// @param path taken every 2 ms, straight in between.
 void deskew(LidarScan& scan, const std::vector<float>& times, const LidarPath& path);
 
-/// Mean of the chosen points' times; 0 without times or points.
-[[nodiscard]] double mean_time(const std::vector<float>& times, const std::vector<int>& points);
-
 }  // namespace lidar_upsampling

@@ -123,10 +123,7 @@ ScanObject part_of(const ScanObject& whole, std::vector<int> points, const Lidar
   part.centroid = extent.centroid.cast<double>();
   part.length = extent.length;
   part.class_name = whole.class_name;
-  if (whole.time_s != 0) {
-    for (const int i : points) part.time_s += scan.time_s[i];
-    part.time_s /= static_cast<double>(points.size());
-  }
+  if (whole.time_s != 0) part.time_s = mean_time(scan.time_s, points);
   part.points = std::move(points);
   return part;
 }
