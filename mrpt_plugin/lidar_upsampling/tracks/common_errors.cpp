@@ -18,7 +18,7 @@ Matrix6d ego_error(const MotionQuestion& question) {
 Matrix6d picture_error(const MotionQuestion& question, const ImageFactor& image, double sigma_px,
                        const TrackOptions& options) {
   constexpr double kPatch_px = 5;     // a single point is as wide as its patch
-  constexpr double kOfScatter = 0.5;  // no unit
+  constexpr double kOfScatter = 0.6;  // no unit
   const double range = question.centroid.norm(), m_per_px = range / question.focal_px;
   const Eigen::Vector3d ahead = question.centroid / range;
   const auto count = static_cast<double>(image.observations.size());

@@ -11,8 +11,8 @@ namespace lidar_upsampling {
 [[nodiscard]] Matrix6d ego_error(const MotionQuestion& question);
 
 /// @brief Of the picture: calibration, straightening of the scan, a body that bends. A shift, and
-/// from its middle to its edge half of what its points scatter, which looks like a turn, or like
-/// coming nearer. (What stands does so by 0.2 to 0.4 of its scatter, on KITTI and simulated.)
+/// from its middle to its edge 0.6 of what its points scatter, which looks like a turn, or like
+/// coming nearer. (What stands does so by 0.2 to 0.4 of its scatter, what moves by more.)
 /// @param sigma_px scatter of the points, per axis.
 [[nodiscard]] Matrix6d picture_error(const MotionQuestion& question, const ImageFactor& image,
                                      double sigma_px, const TrackOptions& options);
