@@ -119,10 +119,11 @@ void list_detector(Config& c, SettingList& v) {
            "clusters: lowest point over ground, at most");
   v.number("cluster_min_length_m", k.min_length, kNotNegative,
            "clusters: longer side of the footprint, at least");
-  v.number("cluster_max_length_m", k.max_length, kPositive,
-           "clusters: longer side of the footprint, at most");
+  v.number(
+      "cluster_max_length_m", k.max_length, kPositive,
+      "clusters: longer side of the footprint, at most; larger ones are split, or left static");
   v.number("cluster_max_width_m", k.max_width, kPositive,
-           "clusters: shorter side of the footprint, at most");
+           "clusters: shorter side of the footprint, at most; likewise");
   NetworkDetectorOptions& n = d.network;
   v.text("model", n.model, "network: Darknet .weights or .onnx of the YOLO families");
   v.text("config", n.config, "network: Darknet .cfg, empty for ONNX");

@@ -28,7 +28,10 @@ std::shared_ptr<const Picture> make_picture(const CameraImage& image, Stamp inst
 }  // namespace
 
 LidarUpsampler::LidarUpsampler(const Config& config)
-    : config_(config), ego_motion_(config.ego_motion), detector_(make_detector(config.detector)) {}
+    : config_(config), ego_motion_(config.ego_motion), detector_(make_detector(config.detector)) {
+  config_.segments.clusters.max_length = config.detector.clusters.max_length;
+  config_.segments.clusters.max_width = config.detector.clusters.max_width;
+}
 
 LidarUpsampler::~LidarUpsampler() = default;
 

@@ -65,6 +65,13 @@ TEST(Clusters, a_queue_of_cars_longer_than_a_car_is_split) {
   EXPECT_EQ(euclidean_clusters(points, all_of(points), options).size(), 1U);
 }
 
+TEST(Clusters, a_truck_and_its_trailer_are_one) {
+  std::vector<Eigen::Vector3f> points;
+  add_block(points, {5, 5, 0}, {6, 2.5F, 3.5F});
+  add_block(points, {11.45F, 5, 0}, {10, 2.5F, 3.5F});
+  EXPECT_EQ(euclidean_clusters(points, all_of(points), {}).size(), 1U);
+}
+
 TEST(Clusters, farther_points_may_lie_farther_apart) {
   const auto count_at = [](float range) {
     const std::vector<Eigen::Vector3f> pair{{range, 0, 0}, {range, 0.8F, 0}};

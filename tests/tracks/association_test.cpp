@@ -93,6 +93,18 @@ TEST(Association, finds_a_mover_again_of_which_a_sliver_comes_out_from_behind_an
   EXPECT_EQ(street.id(street.show(0.5, {sliver})[0]), id);
 }
 
+TEST(Association, knows_a_sliver_again_of_which_more_is_seen_only_where_it_may_be_an_end_of_that) {
+  for (const double apart : {1.5, 4.}) {
+    Street street;
+    ScanObject sliver = car_at(20, 5);
+    sliver.length = 0.5;
+    ObjectTrack& parked = street.track(street.show(0, {sliver})[0]);
+    parked.log_odds = parked.latest_log_odds = -8;
+    const int id = parked.id;
+    EXPECT_EQ(street.id(street.show(0.1, {car_at(20 + apart, 5)})[0]) == id, apart < 2);
+  }
+}
+
 TEST(Association, takes_what_lies_on_it_for_a_part_of_it) {
   const std::vector<Eigen::Vector3f> side{
       {28, 5, -1}, {29, 5, 0}, {30, 5, -1}, {31, 5, 0}, {32, 5, -1}};

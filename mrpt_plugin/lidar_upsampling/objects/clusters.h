@@ -8,6 +8,10 @@
 
 namespace lidar_upsampling {
 
+/// As large as road users may be, m: 18.75 m of length (EU Directive 96/53/EC), 2.55 m of width
+/// without mirrors, and a little more.
+constexpr double kLongestVehicle_m = 19, kWidestVehicle_m = 3.2;
+
 /// How far apart two points of one object may lie. The gap between rings is bridged by height
 /// alone, so that a coarse LiDAR does not join cars side by side.
 struct ClusterOptions {
@@ -21,8 +25,8 @@ struct ClusterOptions {
   int min_points = 8;
 
   // What is too large for one object is split by distances `split_shrink` times as long.
-  double max_length = 13;     ///< m, of the footprint
-  double max_width = 3.2;     ///< m
+  double max_length = kLongestVehicle_m;  ///< m, of the footprint
+  double max_width = kWidestVehicle_m;    ///< m
   double max_low_length = 6;  ///< m, where it is no higher than `low_height`: cars in a queue
   double low_height = 2.2;    ///< m
   double split_shrink = 0.6;

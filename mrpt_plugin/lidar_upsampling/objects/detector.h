@@ -27,8 +27,8 @@ struct ClusterDetectorOptions {
   double min_range = 1, max_range = 120;    ///< m, horizontal, of the centroid
   double min_height = 0.5, max_height = 4;  ///< m, of the highest point above the ground
   double max_bottom = 1;  ///< m, of the lowest point above the ground, where nothing hides that
-  double min_length = 0.3, max_length = 13;  ///< m, the longer side of the footprint
-  double max_width = 3.2;                    ///< m, the shorter side
+  double min_length = 0.3, max_length = kLongestVehicle_m;  ///< m, the longer side of the footprint
+  double max_width = kWidestVehicle_m;                      ///< m, the shorter side
 };
 
 /// Any Darknet or ONNX model of the YOLO families (v2-v5, v8, FastestDet) that cv::dnn reads.

@@ -78,11 +78,12 @@ double density_of_whole(const ObjectTrack& track, const ScanObject& object, cons
   constexpr double kSizeRatio = 0.7;  // of what two scans show of one object, in e-folds
   constexpr double kRise_m = 0.3;     // of its centroid, as other rings meet it
   constexpr double kLeast_m = 0.1;    // by which any centroid shifts: a ring more or less
-  // What only one of the scans shows of it shifts its centroid by a half.
-  const double shift = kLeast_m + options.extent_error * object.length +
-                       0.5 * std::abs(object.length - track.length);
+  // What only one of the scans shows of it lies anywhere about the rest, and shifts its centroid by
+  // up to a half.
+  const double sq_shift = kLeast_m * kLeast_m + std::pow(options.extent_error * object.length, 2) +
+                          std::pow(object.length - track.length, 2) / 12;
   const Eigen::Matrix2d parked =
-      shift * shift * Eigen::Matrix2d::Identity() + ego_error(scan, object.centroid);
+      sq_shift * Eigen::Matrix2d::Identity() + ego_error(scan, object.centroid);
   const Eigen::Vector3d step = scan.T_rest_lidar * object.centroid - track.centroid_rest;
   const double is_moving = probability_of(track.latest_log_odds);
   double if_moving = 0;
