@@ -29,6 +29,7 @@ std::shared_ptr<const Picture> make_picture(const CameraImage& image, Stamp inst
 
 LidarUpsampler::LidarUpsampler(const Config& config)
     : config_(config), ego_motion_(config.ego_motion), detector_(make_detector(config.detector)) {
+  // What is too large for a candidate is split before it is given up.
   config_.segments.clusters.max_length = config.detector.clusters.max_length;
   config_.segments.clusters.max_width = config.detector.clusters.max_width;
 }
