@@ -148,7 +148,6 @@ std::vector<int> take_up_scan(TrackStore& store, std::vector<ScanObject>& object
   std::vector<int> track_of = associate(tracks, objects, scan, options);
   join_pieces(store, scan, options, objects, track_of);
   count_missed(store, track_of, scan, options);
-  constexpr double kFine_m = 0.1;  // nearer neighbours tell the noise of their ranges
   const std::size_t num_known = tracks.size();
   std::vector<std::shared_ptr<const Surface>> surfaces(objects.size());
   tbb::parallel_for(std::size_t{0}, objects.size(), [&](std::size_t i) {

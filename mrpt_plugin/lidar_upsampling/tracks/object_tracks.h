@@ -150,6 +150,10 @@ std::vector<int> take_up_scan(TrackStore& store, std::vector<ScanObject>& object
 /// How far an object's points lie from where they are predicted, m: another scan meets others.
 constexpr float kReach_m = 0.3F;
 
+/// Side of the cubes that have one point each of an object's surface, m: nearer neighbours tell the
+/// noise of their ranges.
+constexpr double kFine_m = 0.1;
+
 /// As long may any object be, at least, whatever has been seen of it, m.
 constexpr double kCar_m = 4;
 

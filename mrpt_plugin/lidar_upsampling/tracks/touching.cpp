@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "lidar_upsampling/objects/cluster_extent.h"
+#include "lidar_upsampling/registration/voxel_grid.h"
 
 namespace lidar_upsampling {
 namespace {
@@ -78,38 +79,39 @@ std::vector<int> motions_of(const std::vector<Claim>& claims) {
   return motion_of;
 }
 
-/// Squared distances of an object's points from where each motion's surfaces are predicted.
+/// Squared distances of places from where each motion's surfaces are predicted.
 using Distances = std::vector<std::vector<float>>;
 
-/// @param far what is farther lies as far as that.
-Distances distances(const ScanObject& object, const std::vector<Claim>& claims,
-                    const std::vector<int>& motion_of, const LidarScan& scan, float far) {
+/// @param places lidar frame. @param far what is farther lies as far as that.
+Distances distances(const std::vector<Eigen::Vector3f>& places, const std::vector<Claim>& claims,
+                    const std::vector<int>& motion_of, float far) {
   const int num_motions = 1 + *std::max_element(motion_of.begin(), motion_of.end());
-  Distances result(num_motions, std::vector<float>(object.points.size(), far));
+  Distances result(num_motions, std::vector<float>(places.size(), far));
   for (std::size_t c = 0; c < claims.size(); ++c) {
-    for (std::size_t i = 0; i < object.points.size(); ++i) {
+    for (std::size_t i = 0; i < places.size(); ++i) {
       float& least = result[motion_of[c]][i];
-      const Eigen::Vector3f place = claims[c].T_then_lidar * scan.points[object.points[i]];
-      least = std::min(least, claims[c].track->surface->nearest(place, least).sq_distance);
+      const Eigen::Vector3f then = claims[c].T_then_lidar * places[i];
+      least = std::min(least, claims[c].track->surface->nearest(then, least).sq_distance);
     }
   }
   return result;
 }
 
-/// The motion that is nearest to a point.
-std::size_t nearest(const Distances& distances, std::size_t point) {
+/// The motion that is nearest to a place.
+std::size_t nearest(const Distances& distances, std::size_t place) {
   std::size_t best = 0;
   for (std::size_t m = 1; m < distances.size(); ++m)
-    if (distances[m][point] < distances[best][point]) best = m;
+    if (distances[m][place] < distances[best][place]) best = m;
   return best;
 }
 
 /// Whether enough points lie on each motion.
-std::vector<bool> are_seen(const Distances& distances, std::size_t num_points) {
+/// @param place_of each point.
+std::vector<bool> are_seen(const Distances& distances, const std::vector<int>& place_of) {
   std::vector<int> count(distances.size(), 0);
-  for (std::size_t i = 0; i < num_points; ++i) {
-    const std::size_t motion = nearest(distances, i);
-    count[motion] += static_cast<int>(distances[motion][i] < kReach_m * kReach_m);
+  for (const int place : place_of) {
+    const std::size_t motion = nearest(distances, place);
+    count[motion] += static_cast<int>(distances[motion][place] < kReach_m * kReach_m);
   }
   std::vector<bool> result;
   result.reserve(count.size());
@@ -135,16 +137,18 @@ std::vector<ScanObject> parts_of(const ScanObject& object, std::vector<Claim>& c
     return {};
   for (Claim& claim : claims)
     claim.T_then_lidar = from_sight(*claim.track, claim.now, scan.T_rest_lidar).inverse();
+  // Surfaces are no finer.
+  const VoxelGroups cubes = group_by_voxel(points_at(scan.scan, object.points), kFine_m);
   // Most are asked in vain: what is far is looked for only where two are near.
-  Distances to = distances(object, claims, motion_of, scan.scan, kReach_m * kReach_m);
-  const std::vector<bool> is_seen = are_seen(to, object.points.size());
+  Distances to = distances(cubes.means, claims, motion_of, kReach_m * kReach_m);
+  const std::vector<bool> is_seen = are_seen(to, cubes.of_point);
   if (std::count(is_seen.begin(), is_seen.end(), true) < 2) return {};
-  to = distances(object, claims, motion_of, scan.scan, std::numeric_limits<float>::max());
+  to = distances(cubes.means, claims, motion_of, std::numeric_limits<float>::max());
   for (std::size_t m = to.size(); m-- > 0;)
     if (!is_seen[m]) to.erase(to.begin() + static_cast<long>(m));
   std::vector<std::vector<int>> points(to.size());
   for (std::size_t i = 0; i < object.points.size(); ++i)
-    points[nearest(to, i)].push_back(object.points[i]);
+    points[nearest(to, cubes.of_point[i])].push_back(object.points[i]);
   std::vector<ScanObject> parts;
   parts.reserve(points.size());
   for (auto& some : points) parts.push_back(part_of(object, std::move(some), scan.scan));
