@@ -2,6 +2,7 @@
 // Copyright (c) 2026, the lidar_upsampling authors
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <utility>
 #include <vector>
 
@@ -90,6 +91,21 @@ TEST(Pieces, may_be_something_else) {
   for (const Course& course : courses) sum += course.probability;
   EXPECT_NEAR(sum, 1, 1e-9);
   EXPECT_LT(courses.front().probability, 0.99);
+}
+
+TEST(Pieces, are_hardly_told_of_a_bus_that_scans_have_missed) {
+  const auto goes_as_bus = [](int num_missed) {
+    TrackStore store;
+    for (int i = 0; i < 4; ++i) BusScan(0.1 * i, {{20. + i, 2.}}).take_up(store);
+    for (int i = 4; i < 4 + num_missed; ++i) BusScan(0.1 * i, {{60., 2.}}).take_up(store);
+    BusScan later(0.1 * (4 + num_missed), {{60., 2.}, {26.5 + num_missed, 1.}});
+    double probability = 0;
+    for (const Course& course : store.tracks[later.take_up(store)[1]].beginnings)
+      if (std::abs(course.from.velocity().x() - 10) < 2) probability += course.probability;
+    return probability;
+  };
+  EXPECT_GT(goes_as_bus(1), 0.5);
+  EXPECT_LT(goes_as_bus(3), 0.1);
 }
 
 TEST(Pieces, go_as_pictures_tell_though_the_whole_goes_otherwise) {

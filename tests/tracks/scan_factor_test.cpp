@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 
@@ -19,16 +20,17 @@ using testing::street_with;
 constexpr float kLength_m = 4;
 
 // The flat side of a car that passes us on the left.
-std::vector<Eigen::Vector3f> flat_side(float rear) {
+std::vector<Eigen::Vector3f> flat_side(float rear, float column_m) {
   std::vector<Eigen::Vector3f> points;
-  for (float x = rear; x <= rear + kLength_m; x += 0.05F)
-    for (float z = -1.2F; z < 0.3F; z += 0.1F) points.emplace_back(x, 3.5F, z);
+  const float ring_m = std::max(0.1F, column_m / 4);
+  for (float x = rear; x <= rear + kLength_m; x += column_m)
+    for (float z = -1.2F; z < 0.3F; z += ring_m) points.emplace_back(x, 3.5F, z);
   return points;
 }
 
 // What two scans tell of it, 0.1 s apart, of a vehicle that has gone so far.
-ScanLesson lesson_of(float rear_before, float rear_now, double ego_m = 0) {
-  const auto before = flat_side(rear_before), now = flat_side(rear_now);
+ScanLesson lesson_of(float rear_before, float rear_now, double ego_m = 0, float column_m = 0.05F) {
+  const auto before = flat_side(rear_before, column_m), now = flat_side(rear_now, column_m);
   const SeenSpace seen_before = street_with(before), seen_now = street_with(now);
   const TrackOptions options;
   ObjectTrack track;
@@ -70,6 +72,13 @@ TEST(ScanFactor, trusts_a_step_less_that_the_beams_themselves_have_made) {
   const ScanLesson moved = lesson_of(4, 5), kept_to_us = lesson_of(4, 4, 1);
   EXPECT_NEAR(kept_to_us.state.mean[0], moved.state.mean[0], 0.1);
   EXPECT_LT(kept_to_us.log_odds, moved.log_odds - 1);
+}
+
+TEST(ScanFactor, knows_the_end_of_a_side_no_better_than_the_beams_on_it_are_apart) {
+  const ScanLesson dense = lesson_of(4, 4.5F), sparse = lesson_of(4, 4.5F, 0, 1.2F);
+  EXPECT_GT(std::sqrt(sparse.state.covariance(0, 0)), 0.2);
+  EXPECT_GT(dense.log_odds, 0);
+  EXPECT_LT(sparse.log_odds, 0);
 }
 
 }  // namespace

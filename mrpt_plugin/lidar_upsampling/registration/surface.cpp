@@ -100,7 +100,7 @@ float Surface::spacing(int point) const {
     return neighbor.index != point && std::abs(step.z()) <= step.head<2>().norm();
   };
   const auto beside = std::find_if(neighbors.begin(), neighbors.end(), lies_beside);
-  return std::sqrt((beside != neighbors.end() ? *beside : neighbors[1]).sq_distance);
+  return std::sqrt((beside != neighbors.end() ? *beside : neighbors.back()).sq_distance);
 }
 
 }  // namespace lidar_upsampling

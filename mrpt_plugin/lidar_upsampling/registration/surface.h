@@ -46,7 +46,8 @@ class Surface {
   /// Unit length; zero where the neighbours form no plane.
   [[nodiscard]] Eigen::Vector3f normal(int point) const;
   /// m, to the nearest other point that lies beside rather than above or below, as surfaces slide
-  /// level; to any where there is none; infinite without another point.
+  /// level; where there is none near, to the farthest that was asked, as it is no less; infinite
+  /// without another point.
   [[nodiscard]] float spacing(int point) const;
 
  private:

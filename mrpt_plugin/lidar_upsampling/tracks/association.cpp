@@ -104,11 +104,10 @@ double density_of_whole(const ObjectTrack& track, const ScanObject& object, cons
 /// @param courses in and out: predicted to the object's instant.
 double log_ratio(const ObjectTrack& track, const Shape& shape, const ScanObject& object,
                  const TrackedScan& scan, const TrackOptions& options, Courses& courses) {
-  constexpr double kMissed = 0.1;  // of what is there to be seen, in one scan
   constexpr double kCertain = 50;  // the detector's own identity outweighs all else
   if (track.external_id >= 0 && object.external_id >= 0)
     return track.external_id == object.external_id ? kCertain : -kCertain;
-  const double is_there = std::pow(kMissed, track.num_missed);
+  const double is_there = probability_of_being_there(track);
   const double whole = density_of_whole(track, object, scan, options, is_there, courses);
   const double part = (track.latest_log_odds > 0 ? is_there : 1) * options.piece_share *
                       shape.density_of_part(object, scan.scan);

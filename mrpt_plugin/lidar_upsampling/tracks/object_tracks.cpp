@@ -109,7 +109,8 @@ ObjectTrack new_track(const ScanObject& object, const TrackedScan& scan,
   return track;
 }
 
-/// Of what moves; what stands is where it was.
+/// Of what moves; what stands is where it was. After births: a scan that shows a piece of something
+/// has not missed it before that piece is judged.
 void count_missed(TrackStore& store, const std::vector<int>& track_of, const TrackedScan& scan,
                   const TrackOptions& options) {
   std::vector<bool> is_seen(store.tracks.size(), false);
@@ -147,7 +148,6 @@ std::vector<int> take_up_scan(TrackStore& store, std::vector<ScanObject>& object
   part_touching(store, scan, options, objects);
   std::vector<int> track_of = associate(tracks, objects, scan, options);
   join_pieces(store, scan, options, objects, track_of);
-  count_missed(store, track_of, scan, options);
   const std::size_t num_known = tracks.size();
   std::vector<std::shared_ptr<const Surface>> surfaces(objects.size());
   tbb::parallel_for(std::size_t{0}, objects.size(), [&](std::size_t i) {
@@ -172,11 +172,17 @@ std::vector<int> take_up_scan(TrackStore& store, std::vector<ScanObject>& object
     track.id = store.next_id++;
     tracks.push_back(std::move(track));
   }
+  count_missed(store, track_of, scan, options);
   return track_of;
 }
 
 bool is_mover(const ObjectTrack& track, const TrackOptions& options) {
   return track.latest_log_odds > std::log(options.loss_ratio);
+}
+
+double probability_of_being_there(const ObjectTrack& track) {
+  constexpr double kMissed = 0.1;  // of what is there to be seen, in one scan
+  return std::pow(kMissed, track.num_missed);
 }
 
 bool is_known_within(const TrackState& state, double sigma_m) {

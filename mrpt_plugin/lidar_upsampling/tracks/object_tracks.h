@@ -160,6 +160,9 @@ constexpr double kCar_m = 4;
 /// Whether it moves, by all that is known, for certain enough to be told so.
 [[nodiscard]] bool is_mover(const ObjectTrack& track, const TrackOptions& options);
 
+/// Of what moves, after the scans that should have shown it and did not.
+[[nodiscard]] double probability_of_being_there(const ObjectTrack& track);
+
 /// Whether its place is known so well, one sigma per axis.
 [[nodiscard]] bool is_known_within(const TrackState& state, double sigma_m);
 

@@ -67,8 +67,8 @@ double piece_density(const ScanObject& object, const ObjectTrack& track, const T
   const double gap =
       gap_between(object, points_by(track, now, scan.T_rest_lidar), scan.scan) / kGap_m;
   const double length = std::max({kCar_m, track.length, object.length});
-  return options.piece_share * probability_of(track.log_odds) * std::exp(-0.5 * gap * gap) /
-         (length * length);
+  return options.piece_share * probability_of(track.log_odds) * probability_of_being_there(track) *
+         std::exp(-0.5 * gap * gap) / (length * length);
 }
 
 }  // namespace

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <numeric>
 #include <optional>
+#include <utility>
 
 #include "lidar_upsampling/decompositions.h"
 #include "lidar_upsampling/registration/surface.h"
@@ -81,19 +81,30 @@ bool tells_step(const TwoSights& sights, const Eigen::Vector2d& step, const Trac
          sights.faces_now.share_across(d_now) > kFace;
 }
 
-/// Where the object ends on one side, m along a direction at rest; none if something hides its end.
-std::optional<double> end_of(const ObjectSight& object, const Pose& T_rest_lidar,
-                             const Eigen::Vector2d& axes_ahead, const Eigen::Vector2d& ahead) {
+/// Where an object ends on one side.
+struct End {
+  double place;    ///< m along a direction at rest
+  double spacing;  ///< m, to the next beams, between which it may end
+};
+
+/// None if something hides its end.
+std::optional<End> end_of(const Surface& object, const SeenSpace& seen, const Pose& T_rest_lidar,
+                          const Eigen::Vector2d& axes_ahead, const Eigen::Vector2d& ahead) {
   constexpr std::size_t kShare = 20;  // the outermost twentieth
-  if (!ends_in_sight(object, axes_ahead)) return {};
-  std::vector<double> along;
-  for (const Eigen::Vector3f& point : object.points)
-    along.push_back(ahead.dot((T_rest_lidar * point.cast<double>()).head<2>()));
+  if (!ends_in_sight({object.points(), seen}, axes_ahead)) return {};
+  std::vector<std::pair<double, int>> along;
+  for (const Eigen::Vector3f& point : object.points())
+    along.emplace_back(ahead.dot((T_rest_lidar * point.cast<double>()).head<2>()),
+                       static_cast<int>(along.size()));
   const std::size_t count = 1 + along.size() / kShare;
   std::nth_element(along.begin(), along.begin() + static_cast<std::ptrdiff_t>(count - 1),
                    along.end(), std::greater<>());
-  return std::accumulate(along.begin(), along.begin() + static_cast<std::ptrdiff_t>(count), 0.) /
-         static_cast<double>(count);
+  End end{0, 0};
+  for (std::size_t i = 0; i < count; ++i) {
+    end.place += along[i].first / static_cast<double>(count);
+    end.spacing += object.spacing(along[i].second) / static_cast<double>(count);
+  }
+  return end;
 }
 
 /// A flat side slides under registration; its ends tell how far it has gone.
@@ -101,20 +112,22 @@ std::optional<double> end_of(const ObjectSight& object, const Pose& T_rest_lidar
 void join_ends(const ObjectTrack& track, const TwoSights& sights, const TrackedScan& scan,
                double longer, PlanarStep& step) {
   constexpr double kEnd_m = 0.1;  // how well two scans show the same end
-  const double sigma = std::hypot(kEnd_m, 0.5 * longer);
   if (sights.scans.seen_before == nullptr) return;
   const Eigen::Vector2d loosest =
       symmetric_eigen<2>(step.covariance.topLeftCorner<2, 2>()).vectors.col(1);
   for (const Eigen::Vector2d& ahead : {loosest, Eigen::Vector2d(-loosest)}) {
-    const auto before = end_of({sights.scans.before.points(), *sights.scans.seen_before},
-                               track.T_rest_lidar, sights.axes_before.transpose() * ahead, ahead);
-    const auto now = end_of({sights.scans.now.points(), scan.seen}, scan.T_rest_lidar,
+    const auto before = end_of(sights.scans.before, *sights.scans.seen_before, track.T_rest_lidar,
+                               sights.axes_before.transpose() * ahead, ahead);
+    const auto now = end_of(sights.scans.now, scan.seen, scan.T_rest_lidar,
                             sights.axes_now.transpose() * ahead, ahead);
     if (!before || !now) continue;
+    const double sq_between =
+        (before->spacing * before->spacing + now->spacing * now->spacing) / 12;
+    const double sigma = std::hypot(kEnd_m, 0.5 * longer, std::sqrt(sq_between));
     const Eigen::Vector3d direction(ahead.x(), ahead.y(), 0);
     const Eigen::Vector3d gain =
         step.covariance * direction / (direction.dot(step.covariance * direction) + sigma * sigma);
-    step.mean += gain * (*now - *before - direction.dot(step.mean));
+    step.mean += gain * (now->place - before->place - direction.dot(step.mean));
     step.covariance -= gain * direction.transpose() * step.covariance;
   }
 }
