@@ -24,20 +24,17 @@ struct SteadyMotion {
 struct PreparedScan {
   LidarScan scan;         ///< all points at its stamp
   bool is_sweep = false;  ///< what moves on its own was seen at the instants that `time_s` tells
-  Pose T_rest_lidar = Pose::Identity();         ///< frame at rest: the first scan's
-  Pose T_scan_before = Pose::Identity();        ///< ego-motion since the scan before
-  Matrix6d step_covariance = Matrix6d::Zero();  ///< of it, a left increment
-  SteadyMotion motion;                          ///< as since the scan before
-  Stamp stamp_before;
-  SceneSegments segments;                              ///< ground and clusters
-  std::shared_ptr<const SeenSpace> seen, seen_before;  ///< free space: by it, by the scan before
+  Pose T_rest_lidar = Pose::Identity();            ///< frame at rest: the first scan's
+  Pose T_scan_before = Pose::Identity();           ///< ego-motion since the scan before
+  Matrix6d step_covariance = Matrix6d::Zero();     ///< of it, a left increment
+  SteadyMotion motion;                             ///< as since the scan before
+  SceneSegments segments;                          ///< ground and clusters
+  std::shared_ptr<const SeenSpace> seen;           ///< free space
   std::unique_ptr<const BeamResampler> resampler;  ///< where virtual scans are to lie on the beams
   std::vector<ScanObject> objects;                 ///< candidates
   std::vector<OtherCluster> other_clusters;        ///< until a virtual scan has told of them
 
-  [[nodiscard]] TrackedScan tracked() const {
-    return {scan, T_rest_lidar, step_covariance, *seen, seen_before.get(), stamp_before};
-  }
+  [[nodiscard]] TrackedScan tracked() const { return {scan, T_rest_lidar, step_covariance, seen}; }
 };
 
 }  // namespace lidar_upsampling

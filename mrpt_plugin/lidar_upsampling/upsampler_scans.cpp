@@ -122,8 +122,6 @@ std::unique_ptr<PreparedScan> LidarUpsampler::prepared(LidarScan scan, const Pre
       straighten(result->scan, times, result->motion.rate);
     }
     result->T_rest_lidar = before->T_rest_lidar * result->T_scan_before.inverse();
-    result->seen_before = before->seen;
-    result->stamp_before = before->scan.stamp;
   };
   std::vector<StageTime> of_look;
   const auto look = [&] { of_look = look_at(config_, *result); };

@@ -2,6 +2,9 @@
 // Copyright (c) 2026, the lidar_upsampling authors
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <memory>
+
 #include "lidar_upsampling/tracks/object_tracks.h"
 
 #include "tracks/car_on_pictures.h"
@@ -23,20 +26,25 @@ ScanObject car_at(double x, double y) {
 /// Scans of a vehicle at rest that show these objects; nothing can be registered.
 class Street {
  public:
-  /// @param points of the first object; else all lie at one place.
+  /// @param points of the first object; else all lie at its centroid.
   std::vector<int> show(double time_s, std::vector<ScanObject> objects,
                         const std::vector<Eigen::Vector3f>& points = {}) {
     scan_.stamp = shifted(kStart, time_s);
-    scan_.points.assign(100, Eigen::Vector3f(10, 0, 0));
+    scan_.points.clear();
+    for (ScanObject& object : objects) {
+      std::fill(object.points.begin(), object.points.end(), static_cast<int>(scan_.points.size()));
+      scan_.points.emplace_back(object.centroid.cast<float>());
+    }
     for (std::size_t i = 0; i < points.size(); ++i) {
       objects.front().points[i] = static_cast<int>(scan_.points.size());
       scan_.points.push_back(points[i]);
     }
-    return take_up_scan(store_, objects,
-                        {scan_, T_rest_lidar_, step_covariance_, seen_, nullptr, {}}, {});
+    return take_up_scan(store_, objects, {scan_, T_rest_lidar_, step_covariance_, seen_}, {});
   }
   /// From now on scans see as far as that.
-  void see_as_far_as(double range_m) { seen_ = testing::wall_at(range_m); }
+  void see_as_far_as(double range_m) {
+    seen_ = std::make_shared<const SeenSpace>(testing::wall_at(range_m));
+  }
   [[nodiscard]] int id(int track) const { return store_.tracks[track].id; }
   [[nodiscard]] ObjectTrack& track(int index) { return store_.tracks[index]; }
   [[nodiscard]] std::size_t num_tracks() const { return store_.tracks.size(); }
@@ -45,7 +53,8 @@ class Street {
   LidarScan scan_;
   Pose T_rest_lidar_ = Pose::Identity();
   Matrix6d step_covariance_ = Matrix6d::Zero();
-  SeenSpace seen_{{}, 0.4};
+  std::shared_ptr<const SeenSpace> seen_ =
+      std::make_shared<const SeenSpace>(std::vector<Eigen::Vector3f>{}, 0.4);
   TrackStore store_;
 };
 

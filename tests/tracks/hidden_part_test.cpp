@@ -52,9 +52,7 @@ class CarThatGoesBy {
   const ObjectTrack& show(float hides_from, float hides_to, float shown_from, float shown_to) {
     const SidePoints points =
         side_of_car(-2 + kStep_m * static_cast<float>(scans_), shown_from, shown_to);
-    before_ = std::move(now_);
-    now_ = std::make_unique<SeenSpace>(street(hides_from, hides_to));
-    const Stamp stamp_before = scan_.stamp;
+    const auto seen = std::make_shared<const SeenSpace>(street(hides_from, hides_to));
     scan_.stamp = shifted(kStart, 0.1 * scans_++);
     scan_.points = points;
     ScanObject object;
@@ -64,9 +62,7 @@ class CarThatGoesBy {
     object.length = points.back().x() - points.front().x();
     std::vector<ScanObject> objects{object};
     const int track =
-        take_up_scan(store_, objects,
-                     {scan_, T_rest_lidar_, exact_, *now_, before_.get(), stamp_before}, {})
-            .front();
+        take_up_scan(store_, objects, {scan_, T_rest_lidar_, exact_, seen}, {}).front();
     return store_.tracks[track];
   }
   const ObjectTrack& show_whole() { return show(kEnd, kEnd, -kEnd, kEnd); }
@@ -75,7 +71,6 @@ class CarThatGoesBy {
   LidarScan scan_;
   Pose T_rest_lidar_ = Pose::Identity();
   Matrix6d exact_ = Matrix6d::Zero();
-  std::unique_ptr<SeenSpace> before_, now_;
   TrackStore store_;
   int scans_ = 0;
 };
@@ -129,11 +124,10 @@ TEST(HiddenPart, of_what_its_own_front_hides_nothing_is_kept) {
   object.points.resize(scan.points.size());
   std::iota(object.points.begin(), object.points.end(), 0);
   object.centroid = mean_of(scan.points);
-  const SeenSpace seen = street(1.9F, 6.1F);  // as it hides itself
+  const auto seen = std::make_shared<const SeenSpace>(street(1.9F, 6.1F));  // by itself
   const Pose here = Pose::Identity();
   const Matrix6d exact = Matrix6d::Zero();
-  EXPECT_LT(hidden_part(track, now, object, {scan, here, exact, seen, nullptr, {}}).size(),
-            behind.size() / 20);
+  EXPECT_LT(hidden_part(track, now, object, {scan, here, exact, seen}).size(), behind.size() / 20);
 }
 
 }  // namespace

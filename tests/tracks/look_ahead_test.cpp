@@ -27,12 +27,12 @@ struct SightsOfOne {
     for (std::size_t i = 0; i < places.size(); ++i) {
       scans.emplace_back();
       scans.back().stamp = shifted(kStart, kPeriod_s * static_cast<double>(i));
-      scans.back().points.assign(100, Eigen::Vector3f(10, 0, 0));
       objects.push_back({sight_at(places[i])});
+      scans.back().points.assign(100, objects.back().front().centroid.cast<float>());
     }
   }
   [[nodiscard]] TrackedScan scan(std::size_t i) const {
-    return {scans[i], T_rest_lidar, step_covariance, seen, nullptr, {}};
+    return {scans[i], T_rest_lidar, step_covariance, seen};
   }
   /// The car's track at the first scan, with `num_ahead` scans to come.
   [[nodiscard]] ObjectTrack track_of_first(std::size_t num_ahead) const {
@@ -49,7 +49,8 @@ struct SightsOfOne {
   std::vector<std::vector<ScanObject>> objects;
   Pose T_rest_lidar = Pose::Identity();
   Matrix6d step_covariance = Matrix6d::Zero();
-  SeenSpace seen{{}, 0.4};
+  std::shared_ptr<const SeenSpace> seen =
+      std::make_shared<const SeenSpace>(std::vector<Eigen::Vector3f>{}, 0.4);
 };
 
 double speed_expected(const ObjectTrack& track) {

@@ -46,10 +46,10 @@ ObjectTrack first_sight(double lidar_yaw) {
   object.length = 4.2;
   const Pose T_rest_lidar(Eigen::AngleAxisd(lidar_yaw, Eigen::Vector3d::UnitZ()));
   const Matrix6d none = Matrix6d::Zero();
-  const SeenSpace seen{{}, 0.4};
+  const auto seen = std::make_shared<const SeenSpace>(std::vector<Eigen::Vector3f>{}, 0.4);
   std::vector<ScanObject> objects{object};
   TrackStore store;
-  take_up_scan(store, objects, {scan, T_rest_lidar, none, seen, nullptr, {}}, {});
+  take_up_scan(store, objects, {scan, T_rest_lidar, none, seen}, {});
   return store.tracks.front();
 }
 

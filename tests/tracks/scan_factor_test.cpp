@@ -28,21 +28,23 @@ std::vector<Eigen::Vector3f> flat_side(float rear, float column_m) {
   return points;
 }
 
-// What two scans tell of it, 0.1 s apart, of a vehicle that has gone so far.
-ScanLesson lesson_of(float rear_before, float rear_now, double ego_m = 0, float column_m = 0.05F) {
+// What two scans tell of it, so far apart, of a vehicle that has gone so far.
+ScanLesson lesson_of(float rear_before, float rear_now, double ego_m = 0, float column_m = 0.05F,
+                     double dt_s = 0.1) {
   const auto before = flat_side(rear_before, column_m), now = flat_side(rear_now, column_m);
-  const SeenSpace seen_before = street_with(before), seen_now = street_with(now);
+  const auto seen_now = std::make_shared<const SeenSpace>(street_with(now));
   const TrackOptions options;
   ObjectTrack track;
   track.stamp = kStart;
   track.T_rest_lidar = Pose::Identity();
+  track.seen = std::make_shared<const SeenSpace>(street_with(before));
   track.surface = std::make_shared<const Surface>(before);
   track.centroid_rest = mean_of(before);
   track.length = kLength_m;
   track.state = track.by_scans = track.latest = new_track_state(kStart, options.noise);
   track.log_odds = track.latest_log_odds = prior_log_odds(options);
   LidarScan scan;
-  scan.stamp = shifted(kStart, 0.1);
+  scan.stamp = shifted(kStart, dt_s);
   scan.points = now;
   ScanObject object;
   object.points.resize(now.size());
@@ -51,8 +53,8 @@ ScanLesson lesson_of(float rear_before, float rear_now, double ego_m = 0, float 
   object.length = kLength_m;
   const Pose T_rest_lidar(Eigen::Translation3d(ego_m, 0, 0));
   const Matrix6d exact = Matrix6d::Zero();
-  return learn_from_scans(track, object, Surface(now),
-                          {scan, T_rest_lidar, exact, seen_now, &seen_before, kStart}, options);
+  return learn_from_scans(track, object, Surface(now), {scan, T_rest_lidar, exact, seen_now},
+                          options);
 }
 
 TEST(ScanFactor, knows_by_its_ends_how_far_a_flat_side_has_gone) {
@@ -66,6 +68,12 @@ TEST(ScanFactor, knows_by_its_ends_that_a_flat_side_stands) {
   const ScanLesson lesson = lesson_of(4, 4);
   EXPECT_NEAR(lesson.state.mean[0], 0, 0.1);
   EXPECT_LT(lesson.log_odds, -2);
+}
+
+TEST(ScanFactor, knows_it_though_a_scan_between_has_missed_the_side) {
+  const ScanLesson lesson = lesson_of(4, 6.2F, 0, 0.05F, 0.2);
+  EXPECT_NEAR(lesson.state.mean[0], 2.2, 0.1);
+  EXPECT_LT(std::sqrt(lesson.state.covariance(0, 0)), 0.15);
 }
 
 TEST(ScanFactor, trusts_a_step_less_that_the_beams_themselves_have_made) {

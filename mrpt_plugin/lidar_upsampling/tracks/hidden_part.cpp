@@ -44,7 +44,7 @@ std::vector<Eigen::Vector3f> hidden_part(const ObjectTrack& track, const TrackSt
   places.erase(std::remove_if(places.begin(), places.end(),
                               [&](const Eigen::Vector3f& place) {
                                 return front.contains(directions.of(place)) ||
-                                       scan.seen.at(place) != Sight::hidden;
+                                       scan.seen->at(place) != Sight::hidden;
                               }),
                places.end());
   return places;

@@ -65,11 +65,11 @@ void see_anew(ObjectTrack& track, const ScanObject& object, std::shared_ptr<cons
   track.class_name = object.class_name;
   track.stamp = shifted(scan.scan.stamp, object.time_s);
   track.T_rest_lidar = scan.T_rest_lidar;
+  track.seen = scan.seen;
   track.surface = std::move(surface);
   track.centroid_rest = scan.T_rest_lidar * object.centroid;
   track.length = object.length;
   track.whole_length = std::max(object.length, extent_of(track.surface->points()));
-  track.is_seen = true;
   track.num_missed = 0;
   track.size = static_cast<double>(object.points.size()) * object.centroid.squaredNorm();
 }
@@ -120,7 +120,7 @@ void count_missed(TrackStore& store, const std::vector<int>& track_of, const Tra
     ObjectTrack& track = store.tracks[i];
     if (is_seen[i] || track.latest_log_odds <= 0) continue;
     const TrackState now = predicted(track.latest, scan.scan.stamp, options.noise);
-    if (!is_hidden(scan.seen, points_by(track, now, scan.T_rest_lidar))) ++track.num_missed;
+    if (!is_hidden(*scan.seen, points_by(track, now, scan.T_rest_lidar))) ++track.num_missed;
   }
 }
 
@@ -220,7 +220,7 @@ void go_on(ObjectTrack& track, TrackState now, const Pose& T_rest_lidar,
   track.log_odds = decayed(track.latest_log_odds, seconds_between(track.stamp, now.stamp), options);
   track.latest_log_odds = track.log_odds;
   track.stamp = now.stamp;
-  track.is_seen = false;
+  track.seen.reset();
   track.num_missed = 0;
   now.mean.head<3>().setZero();  // its covariance stays: that is how well its place is known
   track.state = track.by_scans = track.latest = now;

@@ -79,13 +79,13 @@ struct ObjectTrack {
   std::string class_name;
   Stamp stamp;                             ///< of its last sight in a scan
   Pose T_rest_lidar = Pose::Identity();    ///< then
+  std::shared_ptr<const SeenSpace> seen;   ///< by that scan; null: it is as predicted then
   std::shared_ptr<const Surface> surface;  ///< its points, lidar frame then; with those that an
                                            ///< earlier sight has shown and something hides
   Eigen::Vector3d centroid_rest = Eigen::Vector3d::Zero();
   double size = 0;                 ///< what is seen of it: points times squared range, as an area
   double length = 0;               ///< m, of what is seen of it
   double whole_length = 0;         ///< m, with what is hidden of it
-  bool is_seen = true;             ///< at `stamp`; else it is as predicted then
   int num_missed = 0;              ///< scans since that do not show it, though nothing hides it
   TrackState state;                ///< at `stamp`
   double log_odds = 0;             ///< of moving, at `stamp`
@@ -108,9 +108,7 @@ struct TrackedScan {
   const LidarScan& scan;
   const Pose& T_rest_lidar;
   const Matrix6d& step_covariance;  ///< of the ego-motion since the scan before, a left increment
-  const SeenSpace& seen;
-  const SeenSpace* seen_before = nullptr;  ///< by the scan before; null: there was none
-  Stamp stamp_before;
+  std::shared_ptr<const SeenSpace> seen;  ///< not null
 };
 
 /// @brief Whether an image since its last sight told something of it that scans to come do not tell

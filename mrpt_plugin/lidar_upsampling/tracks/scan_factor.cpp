@@ -43,11 +43,9 @@ TwoSights two_sights(const ObjectTrack& track, const Surface& surface, const Tra
       motion_pose(motion, track.T_rest_lidar.inverse() * track.centroid_rest);
   sights.scans.turn_sigma_rad = options.noise.unknown_yaw_rate_sigma * sights.dt;
   sights.scans.points_per_observation = options.points.points_per_observation;
-  const double between = seconds_between(scan.stamp_before, scan.scan.stamp);
-  if (track.is_seen && scan.seen_before != nullptr &&
-      std::abs(sights.dt - between) < 0.5 * sights.dt) {
-    sights.scans.seen_before = scan.seen_before;
-    sights.scans.seen_now = &scan.seen;
+  if (track.seen) {
+    sights.scans.seen_before = track.seen.get();
+    sights.scans.seen_now = scan.seen.get();
   }
   return sights;
 }
@@ -57,7 +55,7 @@ TwoSights two_sights(const ObjectTrack& track, const Surface& surface, const Tra
 PlanarStep centroid_step(const ObjectTrack& track, const ScanObject& object,
                          const TrackedScan& scan, const TrackOptions& options) {
   constexpr double kLeast_m = 0.1, kTurn = 1;  // m, as for association; rad: it does not tell
-  const double whole = std::max({object.length, track.whole_length, track.is_seen ? 0 : kCar_m});
+  const double whole = std::max({object.length, track.whole_length, track.seen ? 0 : kCar_m});
   const double sigma = std::hypot(kLeast_m + options.extent_error * object.length,
                                   0.5 * (whole - object.length), 0.5 * (whole - track.length));
   PlanarStep step;
@@ -73,7 +71,7 @@ bool tells_step(const TwoSights& sights, const Eigen::Vector2d& step, const Trac
   if (sights.scans.seen_before == nullptr || step.norm() < 1e-3) return true;
   const Eigen::Vector2d d = step.normalized();
   const ObjectSight before{sights.scans.before.points(), *sights.scans.seen_before};
-  const ObjectSight now{sights.scans.now.points(), scan.seen};
+  const ObjectSight now{sights.scans.now.points(), *scan.seen};
   const Eigen::Vector2d d_before = sights.axes_before.transpose() * d;
   const Eigen::Vector2d d_now = sights.axes_now.transpose() * d;
   return (ends_in_sight(before, d_before) && ends_in_sight(now, d_now)) ||
@@ -118,15 +116,14 @@ void join_ends(const ObjectTrack& track, const TwoSights& sights, const TrackedS
   for (const Eigen::Vector2d& ahead : {loosest, Eigen::Vector2d(-loosest)}) {
     const auto before = end_of(sights.scans.before, *sights.scans.seen_before, track.T_rest_lidar,
                                sights.axes_before.transpose() * ahead, ahead);
-    const auto now = end_of(sights.scans.now, scan.seen, scan.T_rest_lidar,
+    const auto now = end_of(sights.scans.now, *scan.seen, scan.T_rest_lidar,
                             sights.axes_now.transpose() * ahead, ahead);
     if (!before || !now) continue;
-    const double sq_between =
-        (before->spacing * before->spacing + now->spacing * now->spacing) / 12;
-    const double sigma = std::hypot(kEnd_m, 0.5 * longer, std::sqrt(sq_between));
+    const double sq_sigma = kEnd_m * kEnd_m + longer * longer / 4 +
+                            (before->spacing * before->spacing + now->spacing * now->spacing) / 12;
     const Eigen::Vector3d direction(ahead.x(), ahead.y(), 0);
     const Eigen::Vector3d gain =
-        step.covariance * direction / (direction.dot(step.covariance * direction) + sigma * sigma);
+        step.covariance * direction / (direction.dot(step.covariance * direction) + sq_sigma);
     step.mean += gain * (now->place - before->place - direction.dot(step.mean));
     step.covariance -= gain * direction.transpose() * step.covariance;
   }
@@ -170,7 +167,7 @@ PlanarStep measured_step(const ObjectTrack& track, const ScanObject& object,
                          const TwoSights& sights, const TrackedScan& scan,
                          const TrackOptions& options) {
   std::optional<PlanarStep> registered;
-  if (track.is_seen) registered = registered_step(sights.scans, scan.T_rest_lidar.linear());
+  if (track.seen) registered = registered_step(sights.scans, scan.T_rest_lidar.linear());
   PlanarStep step = registered ? *registered : centroid_step(track, object, scan, options);
   join_ends(track, sights, scan, object.length - track.length, step);
   const Eigen::Vector2d along = step.mean.head<2>();
