@@ -40,5 +40,11 @@ TEST(Surface, spacing_of_columns_far_apart_is_not_that_of_the_points_above_each_
     EXPECT_GT(wall.spacing(i), 0.35) << i;
 }
 
+TEST(Surface, spacing_of_a_pole_that_has_nothing_beside_it_is_no_less_than_its_points_reach) {
+  std::vector<Eigen::Vector3f> pole;
+  for (float z = -1; z < 1; z += 0.25F) pole.emplace_back(5, 0, z);
+  EXPECT_NEAR(Surface(pole).spacing(3), 1, 1e-4);
+}
+
 }  // namespace
 }  // namespace lidar_upsampling

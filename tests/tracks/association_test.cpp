@@ -8,6 +8,7 @@
 #include "lidar_upsampling/tracks/object_tracks.h"
 
 #include "tracks/car_on_pictures.h"
+#include "tracks/objects_scan.h"
 #include "tracks/vehicle_surface.h"
 
 namespace lidar_upsampling {
@@ -53,8 +54,7 @@ class Street {
   LidarScan scan_;
   Pose T_rest_lidar_ = Pose::Identity();
   Matrix6d step_covariance_ = Matrix6d::Zero();
-  std::shared_ptr<const SeenSpace> seen_ =
-      std::make_shared<const SeenSpace>(std::vector<Eigen::Vector3f>{}, 0.4);
+  std::shared_ptr<const SeenSpace> seen_ = testing::unknown_space();
   TrackStore store_;
 };
 

@@ -5,6 +5,7 @@
 #include "lidar_upsampling/tracks/object_tracks.h"
 
 #include "tracks/car_on_pictures.h"
+#include "tracks/objects_scan.h"
 
 namespace lidar_upsampling {
 namespace {
@@ -49,8 +50,7 @@ struct SightsOfOne {
   std::vector<std::vector<ScanObject>> objects;
   Pose T_rest_lidar = Pose::Identity();
   Matrix6d step_covariance = Matrix6d::Zero();
-  std::shared_ptr<const SeenSpace> seen =
-      std::make_shared<const SeenSpace>(std::vector<Eigen::Vector3f>{}, 0.4);
+  std::shared_ptr<const SeenSpace> seen = testing::unknown_space();
 };
 
 double speed_expected(const ObjectTrack& track) {

@@ -9,6 +9,7 @@
 #include "lidar_upsampling/units.h"
 
 #include "tracks/car_on_pictures.h"
+#include "tracks/objects_scan.h"
 
 namespace lidar_upsampling {
 namespace {
@@ -46,7 +47,7 @@ ObjectTrack first_sight(double lidar_yaw) {
   object.length = 4.2;
   const Pose T_rest_lidar(Eigen::AngleAxisd(lidar_yaw, Eigen::Vector3d::UnitZ()));
   const Matrix6d none = Matrix6d::Zero();
-  const auto seen = std::make_shared<const SeenSpace>(std::vector<Eigen::Vector3f>{}, 0.4);
+  const auto seen = testing::unknown_space();
   std::vector<ScanObject> objects{object};
   TrackStore store;
   take_up_scan(store, objects, {scan, T_rest_lidar, none, seen}, {});

@@ -9,6 +9,11 @@
 
 namespace lidar_upsampling::testing {
 
+/// Nothing is known of it.
+inline std::shared_ptr<const SeenSpace> unknown_space() {
+  return std::make_shared<const SeenSpace>(std::vector<Eigen::Vector3f>{}, 0.4);
+}
+
 /// A scan of a sensor at rest, and its objects; free space is not known.
 struct ObjectsScan {
   std::vector<int> take_up(TrackStore& store) {
@@ -19,8 +24,7 @@ struct ObjectsScan {
   std::vector<ScanObject> objects;
   Pose T_rest_lidar = Pose::Identity();
   Matrix6d step_covariance = Matrix6d::Zero();
-  std::shared_ptr<const SeenSpace> seen =
-      std::make_shared<const SeenSpace>(std::vector<Eigen::Vector3f>{}, 0.4);
+  std::shared_ptr<const SeenSpace> seen = unknown_space();
 };
 
 }  // namespace lidar_upsampling::testing
