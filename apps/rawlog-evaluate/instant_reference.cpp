@@ -211,7 +211,7 @@ std::optional<InstantReference> reference_by_truth(const Truth& truth,
     placed.moving = box->moves_at(request.stamp);
     placed.speed = velocity_error(placed.motion, *T_ego, seconds_between(key.stamp, request.stamp));
   }
-  reference.scan = reference.interpolated ? brought_to(truth, nearest, request.stamp) : nearest;
+  reference.scan = brought_to(truth, nearest, request.stamp);
   return reference;
 }
 

@@ -62,7 +62,7 @@ std::vector<ObjectReference> objects_by_truth(const LidarScan& key, const Truth&
   const Ground ground = estimate_ground(key);
   std::vector<ObjectReference> objects;
   for (const TrueObject& box : truth.objects) {
-    const auto T_box_lidar = box_in_scan(truth, box, key);
+    const auto T_box_lidar = box_as_seen(truth, box, key);
     if (!T_box_lidar) continue;
     ObjectReference object;
     object.id = box.id;

@@ -2,6 +2,7 @@
 // Copyright (c) 2026, the lidar_upsampling authors
 #include "truth.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace lidar_upsampling {
@@ -15,6 +16,26 @@ std::optional<Pose> lidar_in_world(const Truth& truth, const LidarScan& scan, St
   const auto vehicle = truth.T_world_vehicle.at(stamp);
   if (!vehicle) return std::nullopt;
   return vehicle->T_world_vehicle * scan.T_vehicle_lidar;
+}
+
+/// Of the point nearest to a place, seconds from the scan's stamp.
+double time_of_nearest(const LidarScan& scan, const Eigen::Vector3d& place) {
+  const auto sq_distance = [&](const Eigen::Vector3f& point) {
+    return (point - place.cast<float>()).squaredNorm();
+  };
+  const auto nearest = std::min_element(
+      scan.points.begin(), scan.points.end(),
+      [&](const auto& a, const auto& b) { return sq_distance(a) < sq_distance(b); });
+  return nearest == scan.points.end() ? 0 : scan.time_s[nearest - scan.points.begin()];
+}
+
+// T_object_lidar of an object at an instant, of the lidar at the scan's stamp.
+std::optional<Pose> box_at(const Truth& truth, const TrueObject& object, const LidarScan& scan,
+                           Stamp instant) {
+  const auto box = object.T_world_object.at(instant);
+  const auto lidar = lidar_in_world(truth, scan, scan.stamp);
+  if (!box || !lidar) return std::nullopt;
+  return box->T_world_vehicle.inverse() * *lidar;
 }
 
 template <typename Value>
@@ -58,7 +79,7 @@ std::optional<Pose> true_ego_motion(const Truth& truth, const LidarScan& key, St
 
 std::optional<Pose> true_object_motion(const Truth& truth, const TrueObject& object,
                                        const LidarScan& key, Stamp stamp) {
-  const auto k = box_in_scan(truth, object, key);
+  const auto k = box_as_seen(truth, object, key);
   const auto at_t = object.T_world_object.at(stamp);
   const auto lidar_t = lidar_in_world(truth, key, stamp);
   if (!k || !at_t || !lidar_t) return std::nullopt;
@@ -68,11 +89,11 @@ std::optional<Pose> true_object_motion(const Truth& truth, const TrueObject& obj
 LidarScan brought_to(const Truth& truth, const LidarScan& scan, Stamp stamp) {
   LidarScan moved = scan;
   const auto T_ego = true_ego_motion(truth, scan, stamp);
-  if (!T_ego || stamp == scan.stamp) return moved;
+  if (!T_ego || (stamp == scan.stamp && scan.time_s.empty())) return moved;
   moved.stamp = stamp;
   for (auto& point : moved.points) point = (*T_ego * point.cast<double>()).cast<float>();
   for (const TrueObject& object : truth.objects) {
-    const auto T_box_lidar = box_in_scan(truth, object, scan);
+    const auto T_box_lidar = box_as_seen(truth, object, scan);
     const auto T_object = true_object_motion(truth, object, scan, stamp);
     if (!T_box_lidar || !T_object) continue;
     for (std::size_t i = 0; i < scan.size(); ++i) {
@@ -86,10 +107,15 @@ LidarScan brought_to(const Truth& truth, const LidarScan& scan, Stamp stamp) {
 
 std::optional<Pose> box_in_scan(const Truth& truth, const TrueObject& object,
                                 const LidarScan& key) {
-  const auto box = object.T_world_object.at(key.stamp);
-  const auto lidar = lidar_in_world(truth, key, key.stamp);
-  if (!box || !lidar) return std::nullopt;
-  return box->T_world_vehicle.inverse() * *lidar;
+  return box_at(truth, object, key, key.stamp);
+}
+
+std::optional<Pose> box_as_seen(const Truth& truth, const TrueObject& object,
+                                const LidarScan& key) {
+  const auto at_stamp = box_in_scan(truth, object, key);
+  if (!at_stamp || key.time_s.empty()) return at_stamp;
+  const double time = time_of_nearest(key, at_stamp->inverse().translation());
+  return box_at(truth, object, key, shifted(key.stamp, time));
 }
 
 }  // namespace lidar_upsampling

@@ -51,7 +51,7 @@ struct Truth {
 [[nodiscard]] Truth load_truth(const std::string& objects_csv);
 
 /// Where the truth takes points of the key scan: T_lidar_t_lidar_k of the ego-motion, or of an
-/// object. None where the truth does not reach.
+/// object since the scan saw it. None where the truth does not reach.
 [[nodiscard]] std::optional<Pose> true_ego_motion(const Truth& truth, const LidarScan& key,
                                                   Stamp stamp);
 [[nodiscard]] std::optional<Pose> true_object_motion(const Truth& truth, const TrueObject& object,
@@ -63,6 +63,10 @@ struct Truth {
 
 /// T_object_lidar at the key scan.
 [[nodiscard]] std::optional<Pose> box_in_scan(const Truth& truth, const TrueObject& object,
+                                              const LidarScan& key);
+
+/// The same when the scan saw it, which of a straightened sweep was not at the stamp.
+[[nodiscard]] std::optional<Pose> box_as_seen(const Truth& truth, const TrueObject& object,
                                               const LidarScan& key);
 
 }  // namespace lidar_upsampling

@@ -41,6 +41,37 @@ TEST(BroughtTo, the_scene_moves_by_the_ego_motion_and_an_object_by_its_own_as_we
   EXPECT_LT((later.points[1] - Eigen::Vector3f(18.8F, 0.6F, 0)).norm(), 1e-4);
 }
 
+/// The crossing's scan at 0.1 s, straightened, whose points were met 40 ms after its stamp: by then
+/// the car has gone 0.2 m.
+LidarScan late_scan() {
+  LidarScan scan;
+  scan.stamp = at(0.1);
+  scan.points = {{30, 5, 0}, {19, 0.7F, 0}};
+  scan.time_s = {0, 0.04F};
+  return scan;
+}
+
+TEST(BroughtTo, what_a_sweep_met_after_its_stamp_moves_on_from_then) {
+  const LidarScan later = brought_to(crossing(), late_scan(), at(0.15));
+  EXPECT_LT((later.points[1] - Eigen::Vector3f(18.5F, 0.75F, 0)).norm(), 1e-4);
+}
+
+TEST(BroughtTo, the_stamp_of_a_sweep_is_an_instant_like_others) {
+  const LidarScan at_stamp = brought_to(crossing(), late_scan(), at(0.1));
+  EXPECT_LT((at_stamp.points[0] - Eigen::Vector3f(30, 5, 0)).norm(), 1e-4);
+  EXPECT_LT((at_stamp.points[1] - Eigen::Vector3f(19, 0.5F, 0)).norm(), 1e-4);
+}
+
+TEST(BoxAsSeen, of_a_sweep_is_where_the_object_was_when_it_was_met) {
+  const Truth truth = crossing();
+  const Eigen::Vector3d met = late_scan().points[1].cast<double>();
+  const auto seen = box_as_seen(truth, truth.objects[0], late_scan());
+  const auto at_stamp = box_in_scan(truth, truth.objects[0], late_scan());
+  ASSERT_TRUE(seen && at_stamp);
+  EXPECT_NEAR((*seen * met).y(), 0, 1e-4);
+  EXPECT_NEAR((*at_stamp * met).y(), 0.2, 1e-4);
+}
+
 TEST(BroughtTo, beyond_the_truth_the_scan_stays_as_it_is) {
   LidarScan scan;
   scan.stamp = at(0.1);
