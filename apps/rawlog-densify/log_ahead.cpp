@@ -39,9 +39,6 @@ const RawlogEntry* LogAhead::read_on() {
     is_at_end_ = true;
     return nullptr;
   }
-  const bool is_frame =
-      dynamic_cast<const mrpt::obs::CSensoryFrame*>(entry->object.get()) != nullptr;
-  if (copies_members_ && !is_frame) leave_bytes_to_member(*entry);  // a frame's are split
   indexer_.add(*entry->object);
   weight_ += weight_of(*entry);
   const auto stamp = stamp_of(*entry);

@@ -22,7 +22,9 @@ class LogAhead {
   /// be.
   /// @throw std::runtime_error the file cannot be opened.
   LogAhead(const LogFile& log, double span_s, bool copies_members = true)
-      : reader_(log), indexer_(log.path), copies_members_(copies_members), span_s_(span_s) {}
+      : reader_(log, copies_members ? RecordBytes::left_to_member : RecordBytes::kept),
+        indexer_(log.path),
+        span_s_(span_s) {}
 
   /// @brief Reads one entry more. @return it, until next() gives it away; null at the log's end.
   /// @throw CorruptRawlog as RawlogReader::next().
@@ -61,7 +63,6 @@ class LogAhead {
 
   RawlogReader reader_;
   LogIndexer indexer_;
-  bool copies_members_;
   double span_s_;
   std::deque<RawlogEntry> waiting_;
   std::size_t weight_ = 0;  ///< of them, bytes in memory

@@ -70,7 +70,7 @@ LogIndex LogInput::index(bool whole, const std::function<void(double)>& progress
 // None: it does not tell enough, or cannot be read again.
 std::optional<LogIndex> LogInput::index_of_heavy_beginning() const {
   if (!std::filesystem::is_regular_file(job_.input)) return {};
-  RawlogReader reader({job_.input, job_.accept_truncated});
+  RawlogReader reader({job_.input, job_.accept_truncated}, RecordBytes::dropped);
   LogIndexer indexer(job_.input);
   std::optional<Stamp> first, newest;
   while (!first || seconds_between(*first, *newest) < span_ahead_s(job_.config)) {

@@ -13,7 +13,7 @@
 namespace lidar_upsampling {
 
 ScanFeed::ScanFeed(const LogFile& log, std::function<bool(const std::string&, Stamp)> wanted)
-    : reader_(log), wanted_(std::move(wanted)) {}
+    : reader_(log, RecordBytes::dropped), wanted_(std::move(wanted)) {}
 
 std::optional<LidarScan> ScanFeed::next() {
   const auto take = [this](mrpt::obs::CObservation& observation) {

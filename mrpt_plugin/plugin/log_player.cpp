@@ -17,7 +17,10 @@ using mrpt::obs::CObservation;
 using mrpt::obs::CSensoryFrame;
 
 LogPlayer::LogPlayer(const std::string& path, double speed, Pipeline& pipeline)
-    : path_(path), speed_(speed), pipeline_(pipeline), reader_(LogFile(path, true)) {
+    : path_(path),
+      speed_(speed),
+      pipeline_(pipeline),
+      reader_(LogFile(path, true), RecordBytes::dropped) {
   // What is recorded anew shall be what was played; a switch for the whole process.
   mrpt::img::CImage::DISABLE_JPEG_COMPRESSION(true);
   thread_ = std::thread([this] { play(); });

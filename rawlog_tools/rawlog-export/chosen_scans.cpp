@@ -78,7 +78,7 @@ ReadScans for_each_chosen_scan(const LogFile& log, const Choice& choice,
   std::size_t number = 0;
   ReadScans read;
   UsableObservations usable(counted_in(read.unused));
-  RawlogReader reader(log);
+  RawlogReader reader(log, RecordBytes::dropped);
   while (const auto entry = reader.next()) {
     for_each_observation(*entry, [&](const mrpt::obs::CObservation::Ptr& observation) {
       if (observation->sensorLabel != stream.label || !is_lidar_scan(*observation)) return;

@@ -65,7 +65,7 @@ std::vector<std::string> for_each_scan(const LogFile& log,
     if (!is_lidar_scan(observation)) return;
     if (const auto scan = usable.scan(observation)) use(*scan);
   };
-  RawlogReader reader(log);
+  RawlogReader reader(log, RecordBytes::dropped);
   while (const auto entry = reader.next()) {
     if (auto* const frame = dynamic_cast<mrpt::obs::CSensoryFrame*>(entry->object.get())) {
       for (const auto& observation : *frame) use_scan(*observation);

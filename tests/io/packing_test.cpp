@@ -150,13 +150,12 @@ TEST_F(CopiedMembers, need_no_bytes_beside_them_where_they_hold_one_object) {
   for (const Bytes& piece : pieces_) {
     Bytes read(piece.size());
     EXPECT_EQ(reader.Read(read.data(), read.size()), read.size());
-    RawlogEntry entry{nullptr, reader.take_record(), reader.place_in_members()};
-    leave_bytes_to_member(entry);
+    const Bytes kept = reader.take_record(RecordBytes::left_to_member);
     const bool shares = &piece == &pieces_[2] || &piece == &pieces_[3];
-    EXPECT_EQ(entry.bytes.capacity() > 0, shares);
-    writer.write(entry.bytes, entry.packed);
+    EXPECT_EQ(kept.capacity() > 0, shares);
+    writer.write(kept, reader.place_in_members());
     if (shares) continue;
-    EXPECT_THROW(plain.write(entry.bytes, entry.packed), std::logic_error);
+    EXPECT_THROW(plain.write(kept, reader.place_in_members()), std::logic_error);
   }
   writer.finish();
   file.commit();
@@ -191,9 +190,8 @@ TEST_F(CopiedMembers, hold_one_large_object_and_none_of_the_small_ones_before) {
   for (const Bytes& piece : pieces) {
     Bytes read(piece.size());
     EXPECT_EQ(reader.Read(read.data(), read.size()), read.size());
-    RawlogEntry entry{nullptr, reader.take_record(), reader.place_in_members()};
-    leave_bytes_to_member(entry);
-    EXPECT_EQ(entry.bytes.empty(), piece.size() == kMember || &piece == &pieces[3]);
+    const bool is_left = reader.take_record(RecordBytes::left_to_member).empty();
+    EXPECT_EQ(is_left, piece.size() == kMember || &piece == &pieces[3]);
   }
 }
 

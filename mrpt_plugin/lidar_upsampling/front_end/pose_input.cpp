@@ -26,7 +26,7 @@ CObservation::Ptr first_of(const std::string& label, const RawlogEntry& entry) {
 Pose T_vehicle_sensor(const LogIndex& index, const std::string& label, const RigOverrides& rig) {
   const auto lidar = rig.T_vehicle_lidar.find(label);
   if (lidar != rig.T_vehicle_lidar.end()) return lidar->second;
-  RawlogReader reader(LogFile(index.path, true));
+  RawlogReader reader(LogFile(index.path, true), RecordBytes::dropped);
   while (const auto entry = reader.next()) {
     const CObservation::Ptr observation = first_of(label, *entry);
     if (!observation) continue;

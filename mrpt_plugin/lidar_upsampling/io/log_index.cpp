@@ -140,7 +140,7 @@ LogIndex indexed(LogIndexer indexer, const LogFile& log,
     throw std::runtime_error(log.path +
                              ": all of the log must be looked through first, and what comes "
                              "through a pipe is read once: save it to a file");
-  RawlogReader reader(log);
+  RawlogReader reader(log, RecordBytes::dropped);
   while (const auto entry = reader.next()) {
     indexer.add(*entry->object);
     if (progress) progress(reader.progress());

@@ -231,12 +231,16 @@ PlaceInMembers PackedReader::pass_members() {
   return place;
 }
 
-std::vector<std::uint8_t> PackedReader::take_record() {
+std::vector<std::uint8_t> PackedReader::take_record(RecordBytes bytes) {
   place_ = pass_members();
+  const PackedMember* const member = place_.ended.get();
+  place_.is_all = bytes == RecordBytes::left_to_member && member != nullptr &&
+                  member->unpacked_size == record_.size() && ends_with(record_, *member);
+  const bool is_kept = bytes != RecordBytes::dropped && !place_.is_all;
   // Not moved out: the next object is likely as large, and so is read without growing step by step.
-  std::vector<std::uint8_t> bytes(record_);
+  auto record = is_kept ? record_ : std::vector<std::uint8_t>();
   record_.clear();
-  return bytes;
+  return record;
 }
 
 double PackedReader::progress() const {

@@ -16,6 +16,13 @@
 
 namespace lidar_upsampling {
 
+/// What becomes of a record's bytes once it is read.
+enum class RecordBytes {
+  kept,
+  left_to_member,  ///< not kept where a gzip member has them and nothing else
+  dropped
+};
+
 /// @brief Reads a file that is plain, gzip or zstd, see Unpacker, unpacked a little ahead by a
 /// thread of its own, and keeps a record of what was read.
 /// mrpt::io::CFileGZInputStream cannot serve: it does not tell the end of the data from a stream
@@ -57,8 +64,8 @@ class PackedReader : public mrpt::io::CStream {
   /// How much unpacked data there is from the record's begin on, up to the end or a defect; unpacks
   /// all of the file when first asked. None: it is no regular file.
   [[nodiscard]] std::optional<std::uint64_t> bytes_from_record_on();
-  /// All that was read since the last call.
-  [[nodiscard]] std::vector<std::uint8_t> take_record();
+  /// All that was read since the last call; nothing where its bytes are not to be kept.
+  [[nodiscard]] std::vector<std::uint8_t> take_record(RecordBytes bytes = RecordBytes::kept);
   /// Of the record that was taken last.
   [[nodiscard]] const PlaceInMembers& place_in_members() const { return place_; }
   /// Share of the file on the disk that is read, 0 to 1.

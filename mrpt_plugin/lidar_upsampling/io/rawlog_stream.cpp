@@ -17,7 +17,6 @@
 
 #include "lidar_upsampling/io/next_object.h"
 #include "lidar_upsampling/io/output_file.h"
-#include "lidar_upsampling/io/packed_reader.h"
 #include "lidar_upsampling/io/packed_writer.h"
 #include "lidar_upsampling/io/reading_error.h"
 #include "lidar_upsampling/io/reading_guard.h"
@@ -54,6 +53,10 @@ std::vector<std::uint8_t> bytes_of(const mrpt::serialization::CSerializable& obj
   std::vector<std::uint8_t> bytes;
   mrpt::serialization::ObjectToOctetVector(&object, bytes);
   return bytes;
+}
+
+bool is_frame(const mrpt::serialization::CSerializable& object) {
+  return dynamic_cast<const mrpt::obs::CSensoryFrame*>(&object) != nullptr;
 }
 
 // What MRPT makes of an object of another class.
@@ -98,8 +101,9 @@ bool share_external_storage(const std::string& source_rawlog, const std::string&
   return !error;
 }
 
-RawlogReader::RawlogReader(const LogFile& log)
+RawlogReader::RawlogReader(const LogFile& log, RecordBytes bytes)
     : log_(log),
+      bytes_(bytes),
       external_storage_(external_storage_of(log.path)),
       stream_(std::make_unique<PackedReader>(log.path)),
       archive_(mrpt::serialization::archiveUniquePtrFrom<mrpt::io::CStream>(*stream_)) {
@@ -151,8 +155,7 @@ void RawlogReader::find_next(std::uint64_t least) {
 
 void RawlogReader::note_good(const RawlogEntry& entry) {
   ++num_good_;
-  has_frames_ = has_frames_ ||
-                dynamic_cast<const mrpt::obs::CSensoryFrame*>(entry.object.get()) != nullptr ||
+  has_frames_ = has_frames_ || is_frame(*entry.object) ||
                 dynamic_cast<const mrpt::obs::CActionCollection*>(entry.object.get()) != nullptr;
   const auto stamp = stamp_of(entry);
   if (!stamp) return;
@@ -196,7 +199,8 @@ std::optional<RawlogEntry> RawlogReader::next() {
       find_next(std::max<std::uint64_t>(1, stream_->doubtful_from_record_on()));
       continue;
     }
-    entry.bytes = stream_->take_record();
+    const bool splits = bytes_ == RecordBytes::left_to_member && is_frame(*entry.object);
+    entry.bytes = stream_->take_record(splits ? RecordBytes::kept : bytes_);
     entry.packed = stream_->place_in_members();
     note_good(entry);
     return entry;
@@ -207,13 +211,6 @@ double RawlogReader::progress() const { return stream_->progress(); }
 
 RawlogEntry entry_of(const mrpt::serialization::CSerializable::Ptr& object) {
   return {object, bytes_of(*object)};
-}
-
-void leave_bytes_to_member(RawlogEntry& entry) {
-  const PackedMember* const member = entry.packed.ended.get();
-  if (member == nullptr || member->unpacked_size != entry.bytes.size()) return;
-  entry.packed.is_all = ends_with(entry.bytes, *member);
-  if (entry.packed.is_all) entry.bytes = std::vector<std::uint8_t>();  // {} would keep the memory
 }
 
 RawlogWriter::RawlogWriter(const std::string& path, bool overwrite, Compression compression)

@@ -14,13 +14,13 @@
 
 #include "lidar_upsampling/io/left_out.h"
 #include "lidar_upsampling/io/packed_member.h"
+#include "lidar_upsampling/io/packed_reader.h"
 #include "lidar_upsampling/types.h"
 
 namespace lidar_upsampling {
 
 class PackedWriter;
 class OutputFile;
-class PackedReader;
 
 /// One object of a log, with the very bytes it was read from, or the gzip member that has them.
 struct RawlogEntry {
@@ -31,10 +31,6 @@ struct RawlogEntry {
 
 /// An object with the bytes it is written as (pictures without loss).
 [[nodiscard]] RawlogEntry entry_of(const mrpt::serialization::CSerializable::Ptr& object);
-
-/// @brief Forgets the bytes of an object where a gzip member holds these and nothing else: half of
-/// the memory that it takes. RawlogWriter copies the member, if it packs `fast`.
-void leave_bytes_to_member(RawlogEntry& entry);
 
 /// An observation's own stamp, or that of a frame's first one; none of what has no valid one.
 [[nodiscard]] std::optional<Stamp> stamp_of(const RawlogEntry& entry);
@@ -73,8 +69,11 @@ struct CorruptRawlog : std::runtime_error {
 /// before another reader is asked for its next one.
 class RawlogReader {
  public:
+  /// @param bytes of what is read; a frame's are kept where a member has them, to be split.
+  /// Without them an object takes half of the memory, and RawlogWriter copies the member, if it
+  /// packs `fast`.
   /// @throw std::runtime_error the file cannot be opened.
-  explicit RawlogReader(const LogFile& log);
+  explicit RawlogReader(const LogFile& log, RecordBytes bytes = RecordBytes::kept);
   ~RawlogReader();
   RawlogReader(RawlogReader&&) noexcept;
   RawlogReader& operator=(RawlogReader&&) = delete;
@@ -102,6 +101,7 @@ class RawlogReader {
   std::nullopt_t end();
 
   LogFile log_;
+  RecordBytes bytes_;
   std::string external_storage_;
   std::unique_ptr<PackedReader> stream_;
   std::unique_ptr<mrpt::serialization::CArchive> archive_;
