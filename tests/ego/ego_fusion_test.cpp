@@ -196,6 +196,17 @@ TEST(EgoFusion, where_little_that_stands_holds_the_way_a_registration_that_tells
   EXPECT_LT(sigma(1e-6), 0.17) << "no more than the way itself";
 }
 
+TEST(EgoFusion, where_little_that_stands_holds_the_way_it_may_have_lost_what_it_tells_less) {
+  const auto sigma = [](double gone_m, double hold) {
+    Registration registration = registered_way(0.27, hold);
+    registration.T_target_source.translation().x() = -gone_m;
+    return std::sqrt(step_of(registration).covariance(3, 3));
+  };
+  EXPECT_GT(sigma(0.05, 0.03), 0.2);
+  EXPECT_LT(sigma(0.26, 0.03), 0.05);
+  EXPECT_LT(sigma(0.05, 0.1), 0.03);
+}
+
 TEST(EgoFusion, fixes_that_have_fitted_a_straight_road_leave_a_turn_to_the_scans) {
   const Pose straight(Eigen::Translation3d(-1, 0, 0));
   Twist turn = Twist::Zero();

@@ -88,6 +88,23 @@ TEST(Ground, is_followed_up_a_hill_that_leaves_the_near_plane) {
   EXPECT_GT(compare(street, ground, hill).object_kept, 0.9);
 }
 
+TEST(Ground, the_lowest_ring_on_a_car_far_away_is_the_cars) {
+  std::vector<BoxObject> cars;
+  for (const double x : {36., 41., 47., 53., 58., 66., 70.})  // rings lie up to half a metre apart
+    cars.push_back({{x, 6 * std::sin(x), -1.8}, 4.2, 1.8, 1.5, 0});
+  const Street street = make_street(flat, cars);
+  const Ground ground = estimate_ground(street.scan);
+  int of_cars = 0, lost = 0;
+  for (std::size_t i = 0; i < street.scan.size(); ++i) {
+    if (street.truth[i] == kOnGround) continue;
+    ++of_cars;
+    lost += ground.is_ground[i];
+  }
+  ASSERT_GT(of_cars, 100);
+  EXPECT_EQ(lost, 0);
+  EXPECT_GT(compare(street, ground, flat).ground_found, 0.995);
+}
+
 TEST(Ground, is_found_by_sixteen_rings) {
   const Street street = make_street(flat, kCars, 16);
   const Ground ground = estimate_ground(street.scan);

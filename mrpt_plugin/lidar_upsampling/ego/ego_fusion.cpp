@@ -17,7 +17,8 @@ constexpr std::size_t kWindow = 20;
 constexpr double kPointsPerObservation = 9;
 // m, and a share of the points: by what a queue that moves along, and rings on what is level, pull
 // registration along the way. In simulated queues with exact poses it is 2 cm where 3 % of the
-// points hold, 5 cm where 2 % do, 12 cm where 1 % does.
+// points hold, 5 cm where 2 % do, 12 cm where 1 % does. It may be all of the way: as much as
+// registration tells less than was expected.
 constexpr double kDrag_m = 0.02, kEnoughHold = 0.05;
 
 double squared(double value) { return value * value; }
@@ -63,8 +64,12 @@ EgoStep step_of(const Registration& registration) {
   EgoStep step;
   step.T_to_from = registration.T_target_source;
   step.covariance = kPointsPerObservation * registration.covariance;
-  const double drag_m = kDrag_m * std::max(1., kEnoughHold / std::max(1e-9, registration.hold));
   const Eigen::Vector3d& way = registration.way;
+  double drag_m = kDrag_m;
+  if (registration.hold < kEnoughHold) {
+    const double lost_m = way.norm() - registration.T_target_source.translation().norm();
+    drag_m = std::max(kDrag_m * kEnoughHold / std::max(1e-9, registration.hold), lost_m);
+  }
   const Eigen::Vector3d drag = way * std::min(1., drag_m / std::max(1e-9, way.norm()));
   step.covariance.bottomRightCorner<3, 3>() += drag * drag.transpose();
   return step;

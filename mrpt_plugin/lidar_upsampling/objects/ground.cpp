@@ -13,6 +13,9 @@
 #include <stdexcept>
 #include <string>
 
+#include "lidar_upsampling/objects/beam_step.h"
+#include "lidar_upsampling/objects/feet.h"
+
 namespace lidar_upsampling {
 namespace {
 
@@ -68,6 +71,14 @@ class CellGrid {
   float per_metre_;
 };
 
+std::vector<Eigen::Vector3f> moved(const std::vector<Eigen::Vector3f>& points,
+                                   const Eigen::Isometry3f& T) {
+  std::vector<Eigen::Vector3f> result(points.size());
+  std::transform(points.begin(), points.end(), result.begin(),
+                 [&](const Eigen::Vector3f& point) { return T * point; });
+  return result;
+}
+
 /// The lowest point of each cell in a frame whose z is up, -1 where a cell is empty.
 struct LowestPoints {
   std::vector<int> index;
@@ -75,12 +86,12 @@ struct LowestPoints {
 };
 
 LowestPoints lowest_points(const std::vector<Eigen::Vector3f>& points,
-                           const Eigen::Isometry3f& T_up_lidar, const CellGrid& grid) {
+                           const std::vector<std::uint8_t>& left_out, const CellGrid& grid) {
   LowestPoints lowest{std::vector<int>(grid.num_cells(), -1),
                       std::vector<float>(grid.num_cells(), kUnknown)};
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const Eigen::Vector3f p = T_up_lidar * points[i];
-    if (!grid.contains(p)) continue;
+    const Eigen::Vector3f& p = points[i];
+    if (!grid.contains(p) || (!left_out.empty() && left_out[i] != 0)) continue;
     const int cell = grid.cell_of(p);
     if (!(p.z() < lowest.z[cell])) continue;
     lowest.z[cell] = p.z();
@@ -104,7 +115,7 @@ std::optional<Plane> near_plane(const LidarScan& scan, const CellGrid& grid,
   Eigen::Isometry3f T_up_lidar = Eigen::Isometry3f::Identity();
   T_up_lidar.linear() = level_rotation(plane_options.up).cast<float>();
   std::vector<Eigen::Vector3f> low;
-  for (const int point : lowest_points(scan.points, T_up_lidar, grid).index) {
+  for (const int point : lowest_points(moved(scan.points, T_up_lidar), {}, grid).index) {
     if (point >= 0 && scan.points[point].norm() < options.plane_range)
       low.push_back(scan.points[point]);
   }
@@ -207,7 +218,11 @@ Ground estimate_ground(const LidarScan& scan, const GroundOptions& options) {
   Eigen::Isometry3f T_plane_lidar = Eigen::Isometry3f::Identity();
   T_plane_lidar.linear() = level_rotation(plane->normal).cast<float>();
   T_plane_lidar.translation().z() = static_cast<float>(plane->d);
-  const std::vector<float> low = lowest_points(scan.points, T_plane_lidar, grid).z;
+  const std::vector<Eigen::Vector3f> points = moved(scan.points, T_plane_lidar);
+  constexpr float kAnyHill_m = 5;
+  const auto is_foot = find_feet(points, -kAnyHill_m, kAnyHill_m, estimate_vertical_step_deg(scan),
+                                 options.ground_thickness);
+  const std::vector<float> low = lowest_points(points, is_foot, grid).z;
   const std::vector<float> local = GroundFlood(grid, low, options).run();
 
   ground.height.resize(scan.size());
@@ -215,9 +230,9 @@ Ground estimate_ground(const LidarScan& scan, const GroundOptions& options) {
   const auto thickness = static_cast<float>(options.ground_thickness);
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, scan.size(), kGrain), [&](const auto& part) {
     for (std::size_t i = part.begin(); i < part.end(); ++i) {
-      const Eigen::Vector3f p = T_plane_lidar * scan.points[i];
-      ground.height[i] = p.z() - grid.interpolate(local, p);
-      ground.is_ground[i] = ground.height[i] > kDeepest && ground.height[i] < thickness;
+      ground.height[i] = points[i].z() - grid.interpolate(local, points[i]);
+      ground.is_ground[i] =
+          is_foot[i] == 0 && ground.height[i] > kDeepest && ground.height[i] < thickness;
     }
   });
   return ground;

@@ -37,7 +37,8 @@ struct Ground {
 
 /// @brief Ground points of a scan: an MSAC plane (paper, section "Defining Object Points") through
 /// the lowest returns of each cell near the sensor, from which the local ground is followed
-/// outwards, cell by cell, as real roads are no planes.
+/// outwards, cell by cell, as real roads are no planes. Where rings are farther apart than the
+/// ground is thick, what something stands straight upon is not ground.
 /// @param scan of any number of rings, its height above the ground not needed.
 /// @throw std::invalid_argument options out of range.
 [[nodiscard]] Ground estimate_ground(const LidarScan& scan, const GroundOptions& options = {});
