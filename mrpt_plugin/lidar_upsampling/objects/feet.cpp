@@ -13,7 +13,7 @@ namespace lidar_upsampling {
 std::vector<std::uint8_t> find_feet(const std::vector<Eigen::Vector3f>& points, float low,
                                     float high, double vertical_step_deg, double gap_m) {
   constexpr float kMost = 1.6F;     // gaps between rings, to the next one above
-  constexpr float kSteep = 2;       // up per beside
+  constexpr float kSteep = 4;       // up per beside
   constexpr float kSqueeze = 0.3F;  // of heights: neighbours above count, those beside hardly
   constexpr float kSide_m = 0.3F;
   constexpr int kGrain = 512;
