@@ -38,6 +38,15 @@ std::optional<Pose> box_at(const Truth& truth, const TrueObject& object, const L
   return box->T_world_vehicle.inverse() * *lidar;
 }
 
+/// T_lidar_t_lidar_k of an object. @param T_object_lidar when the scan saw it.
+std::optional<Pose> motion_since(const Pose& T_object_lidar, const Truth& truth,
+                                 const TrueObject& object, const LidarScan& scan, Stamp stamp) {
+  const auto at_t = object.T_world_object.at(stamp);
+  const auto lidar_t = lidar_in_world(truth, scan, stamp);
+  if (!at_t || !lidar_t) return std::nullopt;
+  return lidar_t->inverse() * at_t->T_world_vehicle * T_object_lidar;
+}
+
 template <typename Value>
 Value nearest(const std::map<Stamp, Value>& told, Stamp stamp, Value if_none) {
   if (told.empty()) return if_none;
@@ -79,11 +88,9 @@ std::optional<Pose> true_ego_motion(const Truth& truth, const LidarScan& key, St
 
 std::optional<Pose> true_object_motion(const Truth& truth, const TrueObject& object,
                                        const LidarScan& key, Stamp stamp) {
-  const auto k = box_as_seen(truth, object, key);
-  const auto at_t = object.T_world_object.at(stamp);
-  const auto lidar_t = lidar_in_world(truth, key, stamp);
-  if (!k || !at_t || !lidar_t) return std::nullopt;
-  return lidar_t->inverse() * at_t->T_world_vehicle * *k;
+  const auto T_box_lidar = box_as_seen(truth, object, key);
+  if (!T_box_lidar) return std::nullopt;
+  return motion_since(*T_box_lidar, truth, object, key, stamp);
 }
 
 LidarScan brought_to(const Truth& truth, const LidarScan& scan, Stamp stamp) {
@@ -94,8 +101,9 @@ LidarScan brought_to(const Truth& truth, const LidarScan& scan, Stamp stamp) {
   for (auto& point : moved.points) point = (*T_ego * point.cast<double>()).cast<float>();
   for (const TrueObject& object : truth.objects) {
     const auto T_box_lidar = box_as_seen(truth, object, scan);
-    const auto T_object = true_object_motion(truth, object, scan, stamp);
-    if (!T_box_lidar || !T_object) continue;
+    if (!T_box_lidar) continue;
+    const auto T_object = motion_since(*T_box_lidar, truth, object, scan, stamp);
+    if (!T_object) continue;
     for (std::size_t i = 0; i < scan.size(); ++i) {
       const Eigen::Vector3d point = scan.points[i].cast<double>();
       if (((*T_box_lidar * point).array().abs() < 0.5 * object.size.array()).all())

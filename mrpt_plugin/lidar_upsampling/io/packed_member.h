@@ -55,6 +55,13 @@ struct PackedMember {
 /// @brief Whether some bytes end with what a member unpacks to, by its checksum.
 [[nodiscard]] bool ends_with(const std::vector<std::uint8_t>& bytes, const PackedMember& member);
 
+/// What becomes of a record's bytes once it is read.
+enum class RecordBytes {
+  kept,
+  left_to_member,  ///< not kept where a gzip member has them and nothing else
+  dropped
+};
+
 /// How an object that was read lies in the members of its file.
 struct PlaceInMembers {
   std::shared_ptr<const PackedMember> ended;  ///< the one that ends with it; null: none does

@@ -16,13 +16,6 @@
 
 namespace lidar_upsampling {
 
-/// What becomes of a record's bytes once it is read.
-enum class RecordBytes {
-  kept,
-  left_to_member,  ///< not kept where a gzip member has them and nothing else
-  dropped
-};
-
 /// @brief Reads a file that is plain, gzip or zstd, see Unpacker, unpacked a little ahead by a
 /// thread of its own, and keeps a record of what was read.
 /// mrpt::io::CFileGZInputStream cannot serve: it does not tell the end of the data from a stream

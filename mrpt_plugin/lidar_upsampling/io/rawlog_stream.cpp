@@ -17,6 +17,7 @@
 
 #include "lidar_upsampling/io/next_object.h"
 #include "lidar_upsampling/io/output_file.h"
+#include "lidar_upsampling/io/packed_reader.h"
 #include "lidar_upsampling/io/packed_writer.h"
 #include "lidar_upsampling/io/reading_error.h"
 #include "lidar_upsampling/io/reading_guard.h"

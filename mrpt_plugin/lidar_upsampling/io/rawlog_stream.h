@@ -14,13 +14,13 @@
 
 #include "lidar_upsampling/io/left_out.h"
 #include "lidar_upsampling/io/packed_member.h"
-#include "lidar_upsampling/io/packed_reader.h"
 #include "lidar_upsampling/types.h"
 
 namespace lidar_upsampling {
 
 class PackedWriter;
 class OutputFile;
+class PackedReader;
 
 /// One object of a log, with the very bytes it was read from, or the gzip member that has them.
 struct RawlogEntry {

@@ -12,11 +12,12 @@ namespace lidar_upsampling {
 
 std::vector<std::uint8_t> find_feet(const std::vector<Eigen::Vector3f>& points, float low,
                                     float high, double vertical_step_deg, double gap_m) {
-  constexpr float kMost = 1.6F;     // gaps between rings, to the next one above
-  constexpr float kSteep = 4;       // up per beside
+  constexpr float kLeast = 0.5F, kMost = 1.6F;  // gaps between rings, to the next one above: they
+                                                // are not all alike, and sides lean
+  constexpr float kSteep = 4;  // up per beside: sides lean less, what lies before a car is flatter
   constexpr float kSqueeze = 0.3F;  // of heights: neighbours above count, those beside hardly
-  constexpr float kSide_m = 0.3F;
-  constexpr int kGrain = 512;
+  constexpr float kSide_m = 0.3F;   // of a column of the grid: of speed alone
+  constexpr int kGrain = 512;       // points per task
   std::vector<std::uint8_t> is_foot(points.size(), 0);
   const auto step = static_cast<float>(vertical_step_deg * kDegree);
   const auto nearest = static_cast<float>(gap_m / step);
@@ -39,7 +40,7 @@ std::vector<std::uint8_t> find_feet(const std::vector<Eigen::Vector3f>& points, 
           const float gap = step * points[foot].head<2>().norm(), reach = kSqueeze * kMost * gap;
           grid.for_each_within(place, reach * reach, [&](int other, float) {
             const Eigen::Vector3f up = points[index[other]] - points[foot];
-            if (up.z() > 0.5F * gap && up.z() > kSteep * up.head<2>().norm()) is_foot[foot] = 1;
+            if (up.z() > kLeast * gap && up.z() > kSteep * up.head<2>().norm()) is_foot[foot] = 1;
           });
         }
       });

@@ -219,9 +219,11 @@ Ground estimate_ground(const LidarScan& scan, const GroundOptions& options) {
   T_plane_lidar.linear() = level_rotation(plane->normal).cast<float>();
   T_plane_lidar.translation().z() = static_cast<float>(plane->d);
   const std::vector<Eigen::Vector3f> points = moved(scan.points, T_plane_lidar);
-  constexpr float kAnyHill_m = 5;
-  const auto is_foot = find_feet(points, -kAnyHill_m, kAnyHill_m, estimate_vertical_step_deg(scan),
-                                 options.ground_thickness);
+  constexpr float kAnyHill_m = 5;  // what lies farther off the plane is not asked, to save time
+  const double step_deg =
+      options.vertical_step_deg > 0 ? options.vertical_step_deg : estimate_vertical_step_deg(scan);
+  const auto is_foot =
+      find_feet(points, -kAnyHill_m, kAnyHill_m, step_deg, options.ground_thickness);
   const std::vector<float> low = lowest_points(points, is_foot, grid).z;
   const std::vector<float> local = GroundFlood(grid, low, options).run();
 

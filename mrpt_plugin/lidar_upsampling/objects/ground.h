@@ -22,6 +22,7 @@ struct GroundOptions {
   double max_slope = 0.08;        ///< ...plus this times the distance, relative to the plane
   double max_height_jump = 0.4;   ///< m, across cells without ground
   double ground_thickness = 0.2;  ///< m, points up to here above the local ground belong to it
+  double vertical_step_deg = 0;   ///< between neighbouring rings; 0: as the scan shows
 };
 
 enum class GroundStatus { found, none };

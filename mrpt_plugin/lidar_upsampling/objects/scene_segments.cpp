@@ -27,8 +27,10 @@ std::vector<int> points_above_ground(const LidarScan& scan, const Ground& ground
 
 SceneSegments segment_scan(const LidarScan& scan, const SegmentOptions& options) {
   SceneSegments segments;
-  segments.ground = estimate_ground(scan, options.ground);
   segments.vertical_step_deg = estimate_vertical_step_deg(scan);
+  GroundOptions ground = options.ground;
+  ground.vertical_step_deg = segments.vertical_step_deg;
+  segments.ground = estimate_ground(scan, ground);
   ClusterOptions clustering = options.clusters;
   clustering.vertical_step_deg = segments.vertical_step_deg;
   segments.horizontal_step_deg = estimate_horizontal_step_deg(scan);

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <stdexcept>
 #include <string>
-#include <vector>
+#include <unordered_map>
 
 namespace lidar_upsampling {
 namespace {
@@ -22,42 +22,6 @@ std::uint64_t voxel_key(const Eigen::Vector3f& point, float per_metre) {
   return key;
 }
 
-/// Counts keys by first appearance, by open addressing, as std::unordered_map allocates each.
-class KeyNumbers {
- public:
-  /// The key's number, a new one's is size() before.
-  int of(std::uint64_t key) {
-    if (2 * keys_.size() >= places_.size()) grow();
-    int& number = places_[place_of(key)];
-    if (number < 0) {
-      number = static_cast<int>(keys_.size());
-      keys_.push_back(key);
-    }
-    return number;
-  }
-  [[nodiscard]] std::size_t size() const { return keys_.size(); }
-
- private:
-  /// Where it is, or would be.
-  [[nodiscard]] std::size_t place_of(std::uint64_t key) const {
-    constexpr std::uint64_t kGolden = 0x9E3779B97F4A7C15;  // Knuth's multiplicative hashing, 6.4
-    std::size_t place = (key * kGolden) >> shift_;
-    while (places_[place] >= 0 && keys_[places_[place]] != key)
-      place = (place + 1) & (places_.size() - 1);
-    return place;
-  }
-  void grow() {
-    --shift_;
-    places_.assign(2 * places_.size(), -1);
-    for (std::size_t i = 0; i < keys_.size(); ++i)
-      places_[place_of(keys_[i])] = static_cast<int>(i);
-  }
-
-  std::vector<std::uint64_t> keys_;
-  std::vector<int> places_ = std::vector<int>(256, -1);
-  unsigned shift_ = 64 - 8;  // 2^8 places
-};
-
 }  // namespace
 
 VoxelGroups group_by_voxel(const std::vector<Eigen::Vector3f>& points, double side_m) {
@@ -67,11 +31,13 @@ VoxelGroups group_by_voxel(const std::vector<Eigen::Vector3f>& points, double si
   VoxelGroups groups;
   groups.of_point.reserve(points.size());
   const auto per_metre = static_cast<float>(1 / side_m);
-  KeyNumbers number;
+  std::unordered_map<std::uint64_t, int> number_of;
   std::vector<int> counts;
   for (const Eigen::Vector3f& point : points) {
-    const int group = number.of(voxel_key(point, per_metre));
-    if (number.size() > counts.size()) {
+    const int next = static_cast<int>(counts.size());
+    const auto [place, is_new] = number_of.try_emplace(voxel_key(point, per_metre), next);
+    const int group = place->second;
+    if (is_new) {
       groups.means.emplace_back(Eigen::Vector3f::Zero());
       counts.push_back(0);
     }
