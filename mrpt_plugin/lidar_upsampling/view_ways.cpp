@@ -141,9 +141,14 @@ void follow_ways(CameraView& view, const Picture& picture, const Pose& T_camera_
   const auto follow = [&](const Start& start, const auto& follow_points) {
     if (start.which.empty()) return;
     std::vector<cv::Point2f> from;
-    for (const std::size_t i : start.which) from.push_back(points.anchor_px[i]);
+    std::vector<PatchReference*> references;
+    for (const std::size_t i : start.which) {
+      from.push_back(points.anchor_px[i]);
+      references.push_back(&points.reference[i]);
+    }
     const PointLabels labels = labels_of(points, start.which);
-    const Patches patches{view.anchor->pyramid, picture.pyramid, from, start.guesses, &labels};
+    const Patches patches{view.anchor->pyramid, picture.pyramid, from,
+                          start.guesses,        &labels,         references};
     keep_better(points, start.which, follow_points(patches, options), options);
   };
   forget(points, starts.front().which);

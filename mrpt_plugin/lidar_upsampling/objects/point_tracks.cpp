@@ -59,6 +59,7 @@ void add_points(PointTracks& tracks, const std::vector<ProjectedPoint>& projecte
     tracks.found.push_back(1);
     tracks.residual.push_back(0);
     tracks.covariance.emplace_back(Eigen::Matrix2f::Zero());
+    tracks.reference.emplace_back();
   }
 }
 

@@ -32,6 +32,7 @@ struct PointTracks {
   std::vector<std::uint8_t> found;          ///< on the last image
   std::vector<float> residual;              ///< there, gray levels
   std::vector<Eigen::Matrix2f> covariance;  ///< of last_px, px^2, by its texture
+  std::vector<PatchReference> reference;    ///< on the anchor, as far as it was looked for yet
   SurfaceMap surfaces;                      ///< of the anchor, by owner; empty: not known
 
   [[nodiscard]] std::size_t size() const { return point.size(); }

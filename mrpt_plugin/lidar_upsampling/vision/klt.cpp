@@ -80,6 +80,14 @@ std::vector<float> own_of(const Patches& patches, std::size_t i) {
   return own_pixels(patches.labels->surfaces, patches.labels->of_point[i], patches.points[i]);
 }
 
+/// The one that is kept, or else made for the time being.
+const PatchReference& reference_of(const Patches& patches, std::size_t i, PatchReference& for_now) {
+  PatchReference& reference = patches.references.empty() ? for_now : *patches.references[i];
+  if (!reference.is_made())
+    reference = PatchReference(patches.from.full(), patches.points[i], own_of(patches, i));
+  return reference;
+}
+
 KltResult nothing_tracked(const Patches& patches) {
   const std::size_t count = patches.points.size();
   return {patches.guesses, std::vector<std::uint8_t>(count, 0), std::vector<float>(count, 0),
@@ -113,9 +121,13 @@ void check(const Patches& patches) {
     throw std::invalid_argument("klt: pictures of different sizes, " + std::to_string(from.width) +
                                 " x " + std::to_string(from.height) + " and " +
                                 std::to_string(to.width) + " x " + std::to_string(to.height));
-  if (patches.guesses.size() != patches.points.size())
-    throw std::invalid_argument("klt: " + std::to_string(patches.guesses.size()) + " guesses for " +
-                                std::to_string(patches.points.size()) + " points");
+  const auto check_number = [&](std::size_t number, const char* what) {
+    if (number != patches.points.size())
+      throw std::invalid_argument("klt: " + std::to_string(number) + what +
+                                  std::to_string(patches.points.size()) + " points");
+  };
+  check_number(patches.guesses.size(), " guesses for ");
+  if (!patches.references.empty()) check_number(patches.references.size(), " references for ");
 }
 
 }  // namespace
@@ -152,8 +164,9 @@ KltResult align_points(const Patches& patches, const KltOptions& options) {
   check(patches);
   KltResult result = nothing_tracked(patches);
   for_each_patch(patches.points.size(), [&](std::size_t i) {
-    const auto found = align_patch(patches.from.full(), patches.to.full(), patches.points[i],
-                                   patches.guesses[i], own_of(patches, i));
+    PatchReference for_now;
+    const auto found =
+        reference_of(patches, i, for_now).align(patches.to.full(), {patches.guesses[i]});
     if (found && found->residual < kAlike * found->contrast) note(*found, i, result);
   });
   drop_unlike(result, options);
@@ -170,16 +183,16 @@ KltResult search_points(const Patches& patches, const KltOptions& options) {
   flow.found = come_back(patches.from, patches.to, patches.points, flow, options);
   constexpr float kSameStart_px = 0.25F;  // as steps are whole pixels at first, they end alike
   for_each_patch(patches.points.size(), [&](std::size_t i) {
+    if (flow.found[i] == 0 && patches.labels == nullptr) return;
+    PatchReference for_now;
+    const PatchReference& reference = reference_of(patches, i, for_now);
     const cv::Point2f& guess = patches.guesses[i];
-    const std::vector<float> own = own_of(patches, i);
     const cv::Point2f apart = guess - flow.points[i];
     const bool is_new = flow.found[i] == 0 || std::hypot(apart.x, apart.y) > kSameStart_px;
     std::vector<cv::Point2f> starts;
     if (flow.found[i] != 0) starts.push_back(flow.points[i]);
-    if (!own.empty() && is_new) starts.push_back(guess);
-    const auto best =
-        align_patch(patches.from.full(), patches.to.full(), patches.points[i], starts, own);
-    if (best) note(*best, i, result);
+    if (reference.shows_others() && is_new) starts.push_back(guess);
+    if (const auto best = reference.align(patches.to.full(), starts)) note(*best, i, result);
   });
   drop_unlike(result, options);
   return result;

@@ -65,11 +65,14 @@ struct Patches {
   std::vector<cv::Point2f> guesses;  ///< where they may be on the second, as many
   /// Where patches show more than their own surface, only that is compared; null: they show one.
   const PointLabels* labels = nullptr;
+  /// Of each on the first picture, made now where they are not yet; none: they are not kept.
+  std::vector<PatchReference*> references = {};
 };
 
 /// @brief Brings the patches to lie where they are guessed, by align_patch(); those that do not
 /// look alike there are not tracked. A point whose patch leaves either picture is never tracked.
-/// @throw std::invalid_argument pictures of different sizes; guesses of another number.
+/// @throw std::invalid_argument pictures of different sizes; guesses or references of another
+/// number.
 [[nodiscard]] KltResult align_points(const Patches& patches, const KltOptions& options);
 
 /// @brief Searches for them by pyramidal Lucas-Kanade (Bouguet 2001), there and back (Kalal et al.,

@@ -33,15 +33,23 @@ using Parameters = Eigen::Matrix<float, 8, 1>;
 using Pixels = std::array<float, kNumPixels>;
 using Matrix8f = Eigen::Matrix<float, 8, 8>;
 
-struct Template {
-  Pixels gray, contrast;  ///< contrast: gray less its mean
-  /// Of the weighted residuals, a column per pixel.
-  Eigen::Matrix<float, 8, kNumPixels> jacobian;
+}  // namespace
+
+struct PatchParts {
+  alignas(16) Pixels weight;  // as Eigen's sum begins where the memory is aligned
+  float weight_sum = 0;
+  Pixels gray, off_mean;                         // off_mean: gray less its mean
+  Eigen::Matrix<float, 8, kNumPixels> jacobian;  // of the weighted residuals, a column per pixel
+  Parameters prior;
+  Eigen::LLT<Matrix8f> solver;
+  float contrast = 0;          // as of an Alignment
+  Eigen::Matrix2f covariance;  // likewise
 };
 
+namespace {
+
 /// False if the patch with the pixels around it leaves the picture.
-bool make_template(const cv::Mat& image, const cv::Point2f& point, const Pixels& weight,
-                   Template& result) {
+bool cut_template(const cv::Mat& image, const cv::Point2f& point, PatchParts& result) {
   constexpr int width = kWindow + 2;
   constexpr float reach = kHalf + 1;
   if (!inside(image, point.x - reach, point.y - reach)) return false;
@@ -53,19 +61,19 @@ bool make_template(const cv::Mat& image, const cv::Point2f& point, const Pixels&
   for (int v = -kHalf; v <= kHalf; ++v) {
     for (int u = -kHalf; u <= kHalf; ++u, ++i) {
       const float* centre = gray.data() + (v + kHalf + 1) * width + u + kHalf + 1;
-      const float gx = 0.5F * weight[i] * (centre[1] - centre[-1]);
-      const float gy = 0.5F * weight[i] * (centre[width] - centre[-width]);
+      const float gx = 0.5F * result.weight[i] * (centre[1] - centre[-1]);
+      const float gy = 0.5F * result.weight[i] * (centre[width] - centre[-width]);
       const auto x = static_cast<float>(u);
       const auto y = static_cast<float>(v);
       result.gray[i] = *centre;
       sum += *centre;
-      result.jacobian.col(i) << gx, gy, gx * x, gx * y, gy * x, gy * y, 0, -weight[i];
+      result.jacobian.col(i) << gx, gy, gx * x, gx * y, gy * x, gy * y, 0, -result.weight[i];
     }
   }
   const float mean = sum / static_cast<float>(i);
   for (int k = 0; k < i; ++k) {
-    result.contrast[k] = result.gray[k] - mean;
-    result.jacobian(6, k) = -weight[k] * result.contrast[k];
+    result.off_mean[k] = result.gray[k] - mean;
+    result.jacobian(6, k) = -result.weight[k] * result.off_mean[k];
   }
   return true;
 }
@@ -90,48 +98,44 @@ std::vector<float> make_weights() {
   return weights;
 }
 
-/// What is the same wherever the search starts.
-struct Reference {
-  alignas(16) Pixels weight;  // as Eigen's sum begins where the memory is aligned
-  float weight_sum = 0;
-  Template templ;
-  Parameters prior;
-  Eigen::LLT<Matrix8f> solver;
-};
-
 using Values = Eigen::Map<const Eigen::ArrayXf>;
 
 float sq(double value) { return static_cast<float>(value * value); }
 
 /// False if the patch leaves the picture or shows hardly anything of its own.
-bool make_reference(const cv::Mat& image, const cv::Point2f& point, const std::vector<float>& own,
-                    Reference& result) {
+bool make_parts(const cv::Mat& image, const cv::Point2f& point, const std::vector<float>& own,
+                PatchParts& result) {
   static const std::vector<float> kWeights = make_weights();
   static const float kWhole = Values(kWeights.data(), kNumPixels).sum();
   std::copy(kWeights.begin(), kWeights.end(), result.weight.begin());
   for (std::size_t i = 0; i < own.size(); ++i) result.weight[i] *= own[i];
   result.weight_sum = Values(result.weight.data(), kNumPixels).sum();
   if (result.weight_sum < kMinOwnShare * kWhole) return false;
-  if (!make_template(image, point, result.weight, result.templ)) return false;
+  if (!cut_template(image, point, result)) return false;
   result.prior << 0, 0, Eigen::Vector4f::Constant(sq(kGraySigma / kAffineSigma)),
       sq(kGraySigma / kGainSigma), 0;
   Matrix8f normal = Matrix8f::Zero();
-  normal.selfadjointView<Eigen::Lower>().rankUpdate(result.templ.jacobian);
+  normal.selfadjointView<Eigen::Lower>().rankUpdate(result.jacobian);
   normal.diagonal() += result.prior;
   result.solver.compute(normal);
+  const Eigen::Matrix<float, 8, 2> by_shift =
+      result.solver.solve(Matrix8f::Identity().leftCols<2>());
+  result.covariance = sq(kGraySigma) * by_shift.topRows<2>();
+  const Values weight(result.weight.data(), kNumPixels);
+  result.contrast =
+      (weight * Values(result.off_mean.data(), kNumPixels)).abs().sum() / result.weight_sum;
   return result.solver.info() == Eigen::Success;
 }
 
 /// Weighted differences of the deformed patch and the template, and what they say of the
 /// parameters. Row by row, as the sums of one row wait for each other while the next is warped.
 void compare(const cv::Mat& image, const cv::Point2f& guess, const Parameters& p,
-             const Reference& reference, Pixels& error, Parameters& gradient) {
+             const PatchParts& patch, Pixels& error, Parameters& gradient) {
   const float x0 = guess.x + p[0], y0 = guess.y + p[1];
   const bool is_shift = p.segment<4>(2).isZero(0);
   if (is_shift) cut_out<kWindow>(image, x0 - kHalf, y0 - kHalf, error.data());
   const float* const pixels = image.ptr<float>();
   const auto step = static_cast<int>(image.step1());
-  const Template& templ = reference.templ;
   for (int v = -kHalf; v <= kHalf; ++v) {
     using Row = Eigen::Array<float, kWindow, 1>;
     using Part = Eigen::Map<const Row>;
@@ -142,35 +146,29 @@ void compare(const cv::Mat& image, const cv::Point2f& guess, const Parameters& p
       row.sample(pixels, step, &error[first]);
     }
     Eigen::Map<Row> differences(&error[first]);
-    differences = Part(&reference.weight[first]) * (differences - Part(&templ.gray[first]) -
-                                                    p[6] * Part(&templ.contrast[first]) - p[7]);
-    for (int k = first; k < first + kWindow; ++k) gradient += error[k] * templ.jacobian.col(k);
+    differences = Part(&patch.weight[first]) * (differences - Part(&patch.gray[first]) -
+                                                p[6] * Part(&patch.off_mean[first]) - p[7]);
+    for (int k = first; k < first + kWindow; ++k) gradient += error[k] * patch.jacobian.col(k);
   }
 }
 
 std::optional<Alignment> align_from(const cv::Mat& image, const cv::Point2f& guess,
-                                    const Reference& reference) {
+                                    const PatchParts& patch) {
   Parameters p = Parameters::Zero();
   Pixels error;
   for (int i = 0; i < kMaxIterations; ++i) {
     if (!is_inside(image, guess, p)) return std::nullopt;
-    Parameters gradient = reference.prior.cwiseProduct(p);
-    compare(image, guess, p, reference, error, gradient);
-    const Parameters step = reference.solver.solve(gradient);
+    Parameters gradient = patch.prior.cwiseProduct(p);
+    compare(image, guess, p, patch, error, gradient);
+    const Parameters step = patch.solver.solve(gradient);
     p -= step;
     if (!(p.head<2>().norm() < kMaxCorrection_px)) return std::nullopt;
     if (!(p.segment<4>(2).cwiseAbs().maxCoeff() < kMaxAffine)) return std::nullopt;
     if (step.head<2>().norm() < kSettled_px) break;
   }
   const float residual = Values(error.data(), kNumPixels).abs().sum();
-  const Eigen::Matrix<float, 8, 2> by_shift =
-      reference.solver.solve(Matrix8f::Identity().leftCols<2>());
-  const float contrast = (Values(reference.weight.data(), kNumPixels) *
-                          Values(reference.templ.contrast.data(), kNumPixels))
-                             .abs()
-                             .sum();
-  return Alignment{guess + cv::Point2f(p[0], p[1]), residual / reference.weight_sum,
-                   contrast / reference.weight_sum, sq(kGraySigma) * by_shift.topRows<2>()};
+  return Alignment{guess + cv::Point2f(p[0], p[1]), residual / patch.weight_sum, patch.contrast,
+                   patch.covariance};
 }
 
 }  // namespace
@@ -193,15 +191,19 @@ std::vector<float> own_pixels(const SurfaceMap& surfaces, std::int16_t label,
   return own;
 }
 
-std::optional<Alignment> align_patch(const cv::Mat& from, const cv::Mat& to,
-                                     const cv::Point2f& point,
-                                     const std::vector<cv::Point2f>& guesses,
-                                     const std::vector<float>& own) {
-  Reference reference;
-  if (guesses.empty() || !make_reference(from, point, own, reference)) return std::nullopt;
+PatchReference::PatchReference(const cv::Mat& from, const cv::Point2f& point,
+                               const std::vector<float>& own)
+    : is_made_(true), shows_others_(!own.empty()) {
+  auto parts = std::make_unique<PatchParts>();
+  if (make_parts(from, point, own, *parts)) parts_ = std::move(parts);
+}
+
+std::optional<Alignment> PatchReference::align(const cv::Mat& to,
+                                               const std::vector<cv::Point2f>& guesses) const {
   std::optional<Alignment> best;
+  if (!parts_) return best;
   for (const cv::Point2f& guess : guesses) {
-    auto found = align_from(to, guess, reference);
+    auto found = align_from(to, guess, *parts_);
     if (found && (!best || found->residual < best->residual)) best = std::move(found);
   }
   return best;
@@ -210,7 +212,7 @@ std::optional<Alignment> align_patch(const cv::Mat& from, const cv::Mat& to,
 std::optional<Alignment> align_patch(const cv::Mat& from, const cv::Mat& to,
                                      const cv::Point2f& point, const cv::Point2f& guess,
                                      const std::vector<float>& own) {
-  return align_patch(from, to, point, std::vector<cv::Point2f>{guess}, own);
+  return PatchReference(from, point, own).align(to, {guess});
 }
 
 }  // namespace lidar_upsampling

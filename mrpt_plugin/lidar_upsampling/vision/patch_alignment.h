@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <memory>
 #include <opencv2/core/mat.hpp>
 #include <opencv2/core/types.hpp>
 #include <optional>
@@ -43,11 +44,29 @@ struct Alignment {
                                                    const cv::Point2f& guess,
                                                    const std::vector<float>& own = {});
 
-/// @brief From each of several guesses, which takes less time: what then looks most alike.
-[[nodiscard]] std::optional<Alignment> align_patch(const cv::Mat& from, const cv::Mat& to,
-                                                   const cv::Point2f& point,
-                                                   const std::vector<cv::Point2f>& guesses,
-                                                   const std::vector<float>& own = {});
+struct PatchParts;
+
+/// @brief A patch of the first picture with all that is the same wherever it is looked for, 13 KB:
+/// half of what an alignment takes, and therefore kept for the next picture or guess.
+class PatchReference {
+ public:
+  PatchReference() = default;  ///< of no patch
+  /// @param from, own as of align_patch().
+  PatchReference(const cv::Mat& from, const cv::Point2f& point, const std::vector<float>& own);
+
+  /// Whether it was made of a patch, of which something can be aligned or not.
+  [[nodiscard]] bool is_made() const { return is_made_; }
+  /// Whether some of its pixels show another surface.
+  [[nodiscard]] bool shows_others() const { return shows_others_; }
+  /// @brief From each of the guesses, what then looks most alike.
+  /// @return as of align_patch(); none without a guess.
+  [[nodiscard]] std::optional<Alignment> align(const cv::Mat& to,
+                                               const std::vector<cv::Point2f>& guesses) const;
+
+ private:
+  std::shared_ptr<const PatchParts> parts_;  // null: nothing of it can be aligned
+  bool is_made_ = false, shows_others_ = false;
+};
 
 /// @brief What of such a patch shows its own surface; all of it, if `label` is kUnknown.
 /// @return empty if all does.
