@@ -108,16 +108,18 @@ VirtualScan LidarUpsampler::compose(ScanMotion motion) {
   const PreparedScan* next = to_come_.empty() ? nullptr : to_come_.front().get();
   std::optional<VirtualScan> of_next;
   if (next != nullptr && next->resampler)
-    of_next = compose_virtual_scan(
-        next->scan, motion_of_next(*next, motion, key_->scan, *key_->seen), {}, config_.compose);
-  VirtualScan scan = compose_virtual_scan(key_->scan, std::move(motion),
-                                          config_.virtual_label(key_->scan.label), config_.compose);
+    of_next = assign_points(next->scan, motion_of_next(*next, motion, key_->scan, *key_->seen), {},
+                            config_.compose);
+  VirtualScan scan = assign_points(key_->scan, std::move(motion),
+                                   config_.virtual_label(key_->scan.label), config_.compose);
+  if (!key_->resampler) move_points(key_->scan, scan);
   watch.stop();
   if (key_->resampler) {
     const Stopwatch watch_beams(timing_, "resampling");
     std::optional<BeamResampler::OtherView> other;
     if (of_next) other.emplace(BeamResampler::OtherView{*next->resampler, *of_next});
     scan = key_->resampler->resample(std::move(scan), other ? &*other : nullptr);
+    if (scan.resampling != Resampling::done) move_points(key_->scan, scan);
   }
   if (key_->is_sweep) scan.scan.time_s.clear();  // all are of one instant
   scan.T_rest_lidar_t = key_->T_rest_lidar * scan.T_lidar_t_lidar_k.inverse();

@@ -30,11 +30,20 @@ struct ScanMotion {
   std::vector<int> left_out = {};  ///< points of the key scan that the virtual one is to be without
 };
 
-/// @brief The key scan as it would be at the image's instant: static points moved by T_S (paper,
-/// eq. 4), each object's by its own T_D (eq. 5). A point that two objects claim (seen by two
-/// cameras) goes to the one with more inliers. Intensity, ring, column and time stay with their
-/// points.
+/// @brief Whose motion each point of the key scan takes, the static scene's or an object's, and
+/// which points are left out: a virtual scan but for its points. A point that two objects claim
+/// (seen by two cameras) goes to the one with more inliers.
 /// @param output_label the sensor label of the virtual scan.
+[[nodiscard]] VirtualScan assign_points(const LidarScan& key_scan, ScanMotion motion,
+                                        const std::string& output_label,
+                                        const ComposeOptions& options);
+
+/// @brief The points as they would be at the image's instant: static ones moved by T_S (paper,
+/// eq. 4), each object's by its own T_D (eq. 5). Intensity, ring, column and time stay with them.
+/// @param scan by assign_points() of this key scan.
+void move_points(const LidarScan& key_scan, VirtualScan& scan);
+
+/// @brief Both.
 [[nodiscard]] VirtualScan compose_virtual_scan(const LidarScan& key_scan, ScanMotion motion,
                                                const std::string& output_label,
                                                const ComposeOptions& options);

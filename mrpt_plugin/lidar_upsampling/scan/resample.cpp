@@ -53,8 +53,8 @@ struct BeamResampler::Sensor {
 namespace {
 
 void check(std::size_t num_points, const VirtualScan& moved) {
-  const std::size_t size = moved.scan.size();
-  const bool fits = moved.source_index.size() == size && moved.track_id.size() == size &&
+  const std::size_t size = moved.source_index.size();
+  const bool fits = moved.track_id.size() == size &&
                     std::all_of(moved.source_index.begin(), moved.source_index.end(), [&](int i) {
                       return i >= 0 && static_cast<std::size_t>(i) < num_points;
                     });

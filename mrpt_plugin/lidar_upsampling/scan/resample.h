@@ -35,7 +35,8 @@ class BeamResampler {
     const VirtualScan& moved;
   };
 
-  /// @param moved of the key scan, by compose_virtual_scan(). Its `resampling` says what was done.
+  /// @param moved of the key scan, by assign_points(); points that it has are not looked at.
+  /// @return its `resampling` says what was done; if nothing, it is as it was.
   /// @param other shows what the key scan does not, and again what it does: where both show a
   /// surface, each weighs as it is near the beam; what lies before hides what lies behind,
   /// whichever shows it. Null: none.
