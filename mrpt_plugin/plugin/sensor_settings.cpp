@@ -17,8 +17,8 @@ using mrpt::config::CConfigFileBase;
 using mrpt::config::CConfigFileMemory;
 
 constexpr const char* kIgnore = "rawlog-grabber-ignore";
-const std::set<std::string> kOwnKeys{"rawlog",    "speed",           "sources",
-                                     "max_queue", "merge_window_ms", "linger_s"};
+const std::set<std::string> kOwnKeys{"rawlog",      "speed",           "sources",
+                                     "max_wait_ms", "merge_window_ms", "linger_s"};
 // Of CGenericSensor.
 const std::set<std::string> kBaseKeys{"driver", "process_rate", "sensorLabel", "max_queue_len"};
 
@@ -85,12 +85,10 @@ void check_keys(const CConfigFileBase& source, const std::string& section) {
 }
 
 void load_own(const CConfigFileBase& source, const std::string& section, SensorSettings& settings) {
-  double max_queue = settings.max_queue;
   read(source, section, "speed", settings.speed, 0);
-  read(source, section, "max_queue", max_queue, 1);
+  read(source, section, "max_wait_ms", settings.max_wait_ms, 0);
   read(source, section, "merge_window_ms", settings.merge_window_ms, 0);
   read(source, section, "linger_s", settings.linger_s, 0);
-  settings.max_queue = static_cast<int>(std::min(max_queue, 1e6));
   settings.rawlog = source.read_string(section, "rawlog", "");
   std::istringstream names(source.read_string(section, "sources", ""));
   for (std::string name; std::getline(names >> std::ws, name, ',');) {

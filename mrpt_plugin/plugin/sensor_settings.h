@@ -17,7 +17,7 @@ struct SensorSettings {
   std::string rawlog;                ///< log to play; empty: `sources` deliver
   double speed = 1;                  ///< of playing; 0: as fast as the work is done
   std::vector<std::string> sources;  ///< sections of drivers
-  int max_queue = 3;                 ///< scans, and images of each camera, that wait for work
+  double max_wait_ms = 100;          ///< of a scan or an image for the work; half of it hurries
   double merge_window_ms = 20;       ///< sources: what an observation may arrive later than others
   double linger_s = 30;              ///< at the end, at most, until all that was handed out is used
   bool into_frames = false;          ///< whether rawlog-grabber makes sensory frames

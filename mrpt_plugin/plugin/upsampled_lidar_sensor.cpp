@@ -66,7 +66,11 @@ void UpsampledLidarSensor::initialize() {
 void UpsampledLidarSensor::start() {
   streams_.emplace(settings_.config, settings_.rig);
   QueueOptions queue;
-  queue.max_waiting = static_cast<std::size_t>(settings_.max_queue);
+  const bool can_wait = !settings_.rawlog.empty() && settings_.speed == 0;
+  if (!can_wait) {
+    queue.give_up_after = QueueOptions::Milliseconds(settings_.max_wait_ms);
+    queue.hurry_after = queue.give_up_after / 2;
+  }
   if (settings_.rawlog.empty())  // a log has its order already
     queue.merge_window = std::chrono::duration<double, std::milli>(settings_.merge_window_ms);
   pipeline_ = std::make_unique<Pipeline>(

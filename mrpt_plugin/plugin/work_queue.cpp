@@ -11,25 +11,18 @@ namespace lidar_upsampling {
 void WorkQueue::push(Arrived arrived) {
   const std::lock_guard<std::mutex> lock(mutex_);
   if (closed_) return;
-  const bool is_work = arrived.role != Role::other;
-  const std::string label = arrived.observation->sensorLabel;
   const auto place =
       std::upper_bound(waiting_.begin(), waiting_.end(), arrived,
                        [this](const Arrived& a, const Arrived& b) { return goes_before(a, b); });
   waiting_.insert(place, std::move(arrived));
-  const std::size_t waiting = num_waiting(label, std::chrono::steady_clock::now());
-  if (is_work && waiting > max_unhurried()) mark_oldest(label, &Arrived::is_hurried);
-  if (is_work && waiting > options_.max_waiting) mark_oldest(label, &Arrived::is_late);
   changed_.notify_all();
 }
 
 void WorkQueue::wait_for_room() {
   std::unique_lock<std::mutex> lock(mutex_);
   changed_.wait(lock, [this] {
-    const auto is_full = [&](const Arrived& arrived) {
-      return num_waiting(arrived.observation->sensorLabel, SteadyTime::max()) >= max_unhurried();
-    };
-    return abandoned_ || std::none_of(waiting_.begin(), waiting_.end(), is_full);
+    const auto is_work = [](const Arrived& arrived) { return arrived.role != Role::other; };
+    return abandoned_ || std::none_of(waiting_.begin(), waiting_.end(), is_work);
   });
 }
 
@@ -40,6 +33,7 @@ std::optional<Arrived> WorkQueue::pop() {
     if (time && (closed_ || *time <= std::chrono::steady_clock::now())) {
       Arrived first = std::move(waiting_.front());
       waiting_.pop_front();
+      mark(first);
       changed_.notify_all();
       return first;
     }
@@ -73,26 +67,11 @@ bool WorkQueue::goes_before(const Arrived& a, const Arrived& b) const {
   return a.role < b.role;
 }
 
-// Those that are only held back for others do not wait for the upsampler.
-std::size_t WorkQueue::num_waiting(const std::string& label, SteadyTime now) const {
-  const auto waits = [&](const Arrived& arrived) {
-    return arrived.role != Role::other && !arrived.is_late &&
-           arrived.observation->sensorLabel == label && due(arrived) <= now;
-  };
-  return static_cast<std::size_t>(std::count_if(waiting_.begin(), waiting_.end(), waits));
-}
-
-std::size_t WorkQueue::max_unhurried() const {
-  return std::max<std::size_t>(
-      1, options_.max_waiting - std::min<std::size_t>(2, options_.max_waiting));
-}
-
-void WorkQueue::mark_oldest(const std::string& label, bool Arrived::*mark) {
-  const auto oldest = std::find_if(waiting_.begin(), waiting_.end(), [&](const Arrived& arrived) {
-    return arrived.role != Role::other && !arrived.is_late && !(arrived.*mark) &&
-           arrived.observation->sensorLabel == label;
-  });
-  if (oldest != waiting_.end()) (*oldest).*mark = true;
+void WorkQueue::mark(Arrived& first) const {
+  if (first.role == Role::other) return;
+  const QueueOptions::Milliseconds waited = std::chrono::steady_clock::now() - due(first);
+  first.is_hurried = waited > options_.hurry_after;
+  first.is_late = waited > options_.give_up_after;
 }
 
 // The first in line goes as soon as any one's time has come: that one must not overtake it.

@@ -6,8 +6,8 @@
 
 #include <chrono>
 #include <condition_variable>
-#include <cstddef>
 #include <deque>
+#include <limits>
 #include <mutex>
 #include <optional>
 
@@ -33,20 +33,24 @@ struct Arrived {
 };
 
 struct QueueOptions {
-  std::size_t max_waiting = 3;  ///< scans of the LiDAR, and images of each camera
-  /// An observation is held back so long for ones of an earlier stamp that arrive after it.
-  std::chrono::duration<double, std::milli> merge_window{0};
+  using Milliseconds = std::chrono::duration<double, std::milli>;
+  static constexpr Milliseconds kNever{std::numeric_limits<double>::infinity()};
+
+  Milliseconds hurry_after = kNever;    ///< a scan or an image that has waited longer is hurried
+  Milliseconds give_up_after = kNever;  ///< and after this, late
+  /// An observation is held back so long for ones of an earlier stamp that arrive after it, which
+  /// counts for no waiting.
+  Milliseconds merge_window{0};
 };
 
 /// @brief Observations in the order of their stamps; all that go in come out. What is bounded is
-/// the work: if more than `max_waiting` scans or images of a label wait, the oldest of them is
-/// marked late; already with one less (two at least), hurried.
+/// the work, by the time for which scans and images have waited for it.
 class WorkQueue {
  public:
   explicit WorkQueue(const QueueOptions& options) : options_(options) {}
 
   void push(Arrived arrived);
-  /// @brief Waits until a further scan or image hurries none. For sources that can wait.
+  /// @brief Waits until no scan or image is left that nobody works on. For sources that can wait.
   void wait_for_room();
   /// @return the next observation as soon as there is one whose time has come; none at the end.
   [[nodiscard]] std::optional<Arrived> pop();
@@ -58,9 +62,7 @@ class WorkQueue {
 
  private:
   [[nodiscard]] bool goes_before(const Arrived& a, const Arrived& b) const;
-  [[nodiscard]] std::size_t num_waiting(const std::string& label, SteadyTime now) const;
-  [[nodiscard]] std::size_t max_unhurried() const;
-  void mark_oldest(const std::string& label, bool Arrived::*mark);
+  void mark(Arrived& first) const;
   [[nodiscard]] std::optional<SteadyTime> next_due() const;
   [[nodiscard]] SteadyTime due(const Arrived& arrived) const;
 

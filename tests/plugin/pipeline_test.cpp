@@ -52,9 +52,7 @@ class SlowUpsampling : public Upsampling {
 };
 
 struct LiveRun {
-  explicit LiveRun(std::size_t max_waiting) {
-    QueueOptions options;
-    options.max_waiting = max_waiting;
+  explicit LiveRun(const QueueOptions& options) {
     pipeline = std::make_unique<Pipeline>(
         options, by_label, std::make_unique<SlowUpsampling>(go_on.get_future().share(), &is_busy),
         messages);
@@ -74,41 +72,30 @@ struct LiveRun {
   std::unique_ptr<Pipeline> pipeline;
 };
 
-TEST(Pipeline, late_images_go_without_a_virtual_scan_and_are_counted) {
-  LiveRun live(2);
+constexpr QueueOptions::Milliseconds kAtOnce{0};
+
+TEST(Pipeline, hurried_images_have_their_virtual_scans_and_are_counted) {
+  LiveRun live({kAtOnce, std::chrono::hours(1)});
   live.pipeline->push(observed("LIDAR", 0));
   live.is_busy.get_future().wait();
-  for (const int ms : {0, 33, 67, 100, 133}) live.pipeline->push(observed("CAM0", ms));
+  for (const int ms : {0, 33}) live.pipeline->push(observed("CAM0", ms));
   live.pipeline->finish("over");
   live.go_on.set_value();
-  EXPECT_EQ(live.rest(), (Names{"LIDAR 0", "CAM0 0", "CAM0 33", "CAM0 67", "CAM0 100",
-                                "VIRTUAL 100", "CAM0 133", "VIRTUAL 133", "LAST 1000"}));
+  EXPECT_EQ(live.rest(),
+            (Names{"LIDAR 0", "CAM0 0", "VIRTUAL 0", "CAM0 33", "VIRTUAL 33", "LAST 1000"}));
   const SensorStatistics statistics = live.pipeline->statistics();
-  EXPECT_EQ(statistics.num_real, 6U);
+  EXPECT_EQ(statistics.num_real, 3U);
   EXPECT_EQ(statistics.num_scans, 1U);
-  EXPECT_EQ(statistics.num_images, 5U);
-  EXPECT_EQ(statistics.num_late_images, 3U);
+  EXPECT_EQ(statistics.num_images, 2U);
+  EXPECT_EQ(statistics.num_hurried, 2U);
+  EXPECT_EQ(statistics.num_late_images, 0U);
   EXPECT_EQ(statistics.num_virtual_scans, 2U);
   EXPECT_EQ(statistics.ready.count(), 2U);
   EXPECT_EQ(statistics.delivered.count(), 2U);
 }
 
-TEST(Pipeline, images_are_hurried_before_any_is_late) {
-  LiveRun live(3);
-  live.pipeline->push(observed("LIDAR", 0));
-  live.is_busy.get_future().wait();
-  for (const int ms : {0, 33, 67}) live.pipeline->push(observed("CAM0", ms));
-  live.pipeline->finish("over");
-  live.go_on.set_value();
-  EXPECT_EQ(live.rest().size(), 8U);
-  const SensorStatistics statistics = live.pipeline->statistics();
-  EXPECT_EQ(statistics.num_hurried, 2U);
-  EXPECT_EQ(statistics.num_late_images, 0U);
-  EXPECT_EQ(statistics.num_virtual_scans, 3U);
-}
-
-TEST(Pipeline, real_observations_survive_any_flood_in_time_order) {
-  LiveRun live(1);
+TEST(Pipeline, late_ones_are_passed_on_in_time_order_and_counted) {
+  LiveRun live({kAtOnce, kAtOnce});
   live.pipeline->push(observed("POSE", 0));
   live.is_busy.get_future().wait();
   Names expected{"POSE 0"};
@@ -126,13 +113,14 @@ TEST(Pipeline, real_observations_survive_any_flood_in_time_order) {
                             }),
              real.end());
   EXPECT_EQ(real, expected);
-  EXPECT_EQ(live.pipeline->statistics().num_late_images, 99U);
-  EXPECT_EQ(live.pipeline->statistics().num_late_scans, 99U);
+  EXPECT_EQ(live.pipeline->statistics().num_late_images, 100U);
+  EXPECT_EQ(live.pipeline->statistics().num_late_scans, 100U);
+  EXPECT_EQ(live.pipeline->statistics().num_virtual_scans, 0U);
   EXPECT_EQ(live.pipeline->statistics().num_out_of_order, 0U);
 }
 
 TEST(Pipeline, a_real_observation_that_arrives_far_too_late_is_passed_on_and_counted) {
-  LiveRun live(9);
+  LiveRun live({});
   live.go_on.set_value();
   live.pipeline->push(observed("POSE", 50));
   while (live.pipeline->statistics().num_real == 0) std::this_thread::yield();
@@ -143,7 +131,7 @@ TEST(Pipeline, a_real_observation_that_arrives_far_too_late_is_passed_on_and_cou
 }
 
 TEST(Pipeline, an_observation_that_cannot_be_worked_on_is_passed_on_with_a_message) {
-  LiveRun live(9);
+  LiveRun live({});
   live.go_on.set_value();
   live.pipeline->push(observed("BROKEN", 0));
   live.pipeline->finish("over");
@@ -152,7 +140,7 @@ TEST(Pipeline, an_observation_that_cannot_be_worked_on_is_passed_on_with_a_messa
 }
 
 TEST(Pipeline, the_first_reason_to_end_is_told_after_the_last_observation_was_taken) {
-  LiveRun live(9);
+  LiveRun live({});
   live.go_on.set_value();
   live.pipeline->push(observed("POSE", 0));
   EXPECT_FALSE(live.pipeline->end());

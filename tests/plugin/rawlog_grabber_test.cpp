@@ -35,7 +35,7 @@ TEST_F(RawlogGrabber, records_every_real_observation_unchanged_and_a_virtual_sca
 
 TEST_F(RawlogGrabber, at_real_time_what_is_late_is_counted_and_nothing_real_is_lost) {
   simulate(folder_);
-  const std::string words = grab("'s/^max_queue = .*/max_queue = 1/'");
+  const std::string words = grab("'s/^max_wait_ms = .*/max_wait_ms = 1/'");
   const auto all = observations_of(recording());
   expect_same(without_label(all, "LIDAR_VIRTUAL"), observations_of(folder_ / "in.rawlog"));
   expect_in_time_order(all);
@@ -103,8 +103,8 @@ TEST_F(DamagedLogInRawlogGrabber, a_broken_jpeg_picture_costs_its_object_and_not
 
 TEST_F(RawlogGrabber, a_misspelt_key_is_refused_by_its_name) {
   simulate(folder_);
-  const std::string words = grab("'s/^max_queue = /max_que = /'");
-  EXPECT_TRUE(contains(words, "(UPSAMPLED_LIDAR) max_que: there is no such setting")) << words;
+  const std::string words = grab("'s/^max_wait_ms = /max_wait = /'");
+  EXPECT_TRUE(contains(words, "(UPSAMPLED_LIDAR) max_wait: there is no such setting")) << words;
   EXPECT_EQ(recording(), "");
 }
 

@@ -17,7 +17,7 @@ process_rate = 100
 sensorLabel = X
 rawlog = a b.rawlog
 speed = 2.5
-max_queue = 7
+max_wait_ms = 70
 linger_s = 3
 lidar_label = TOP
 outside_view = drop
@@ -68,7 +68,7 @@ TEST(SensorSettings, the_sensors_and_the_methods_settings_are_read_from_one_file
   const SensorSettings settings = load("");
   EXPECT_EQ(settings.rawlog, "a b.rawlog");
   EXPECT_EQ(settings.speed, 2.5);
-  EXPECT_EQ(settings.max_queue, 7);
+  EXPECT_EQ(settings.max_wait_ms, 70);
   EXPECT_EQ(settings.linger_s, 3);
   EXPECT_TRUE(settings.into_frames);
   EXPECT_EQ(settings.config.lidar_label, "TOP");
@@ -82,7 +82,7 @@ TEST(SensorSettings, sources_are_a_list) {
 }
 
 TEST(SensorSettings, a_misspelt_key_is_refused_by_its_name) {
-  expect_refused("[UPSAMPLED]\nmax_que = 3\n", {"[UPSAMPLED]", "max_que:", "max_queue"});
+  expect_refused("[UPSAMPLED]\nmax_wait = 3\n", {"[UPSAMPLED]", "max_wait:", "max_wait_ms"});
   expect_refused("[klt]\nwindow_pixels = 3\n", {"[klt]", "window_pixels", "window_px"});
   expect_refused("[camera.CAM0]\nfocal = 3\n", {"[camera.CAM0]", "focal", "fx_px"});
 }
@@ -93,7 +93,7 @@ TEST(SensorSettings, a_misspelt_section_is_refused_by_its_name) {
 
 TEST(SensorSettings, a_value_out_of_range_is_refused) {
   expect_refused("[UPSAMPLED]\nspeed = -1\n", {"[UPSAMPLED]", "speed", "-1"});
-  expect_refused("[UPSAMPLED]\nmax_queue = 0\n", {"max_queue", "0"});
+  expect_refused("[UPSAMPLED]\nmax_wait_ms = -1\n", {"max_wait_ms", "-1"});
   expect_refused("[UPSAMPLED]\nlinger_s = soon\n", {"linger_s", "soon"});
 }
 

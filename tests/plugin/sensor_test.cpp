@@ -108,7 +108,7 @@ std::string driver(const TestFolder& folder, const std::string& label, int delay
 
 // A window of this size merges all, however late a busy machine is.
 constexpr const char* kThreeDrivers =
-    "sources = LIDAR_DRIVER, CAM0_DRIVER, POSE_DRIVER\nmerge_window_ms = 1500\nmax_queue = 100\n"
+    "sources = LIDAR_DRIVER, CAM0_DRIVER, POSE_DRIVER\nmerge_window_ms = 1500\nmax_wait_ms = 1e6\n"
     "linger_s = 0";
 
 TEST(Sensor, drivers_of_different_delay_are_merged_in_time_order) {
