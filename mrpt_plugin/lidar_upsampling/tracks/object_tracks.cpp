@@ -232,7 +232,10 @@ void go_on(ObjectTrack& track, TrackState now, const Pose& T_rest_lidar,
 
 TrackState ObjectTrack::expected_at(Stamp instant, const MotionNoise& noise) const {
   if (!ahead) return predicted(state, instant, noise);
-  return smoothed(predicted(ahead->from, instant, noise), ahead->next, noise);
+  TrackState now = smoothed(predicted(ahead->from, instant, noise), ahead->next, noise);
+  // Of what was hidden at its last sight, the scans to come tell that place, too.
+  now.mean.head<3>() -= smoothed(ahead->from, ahead->next, noise).mean.head<3>();
+  return now;
 }
 
 void look_ahead(TrackStore& store, const std::vector<ScanToCome>& to_come,
