@@ -77,6 +77,18 @@ TEST(LookAhead, is_the_surer_the_more_scans_tell) {
             0.9 * variance_expected(street.track_of_first(1)));
 }
 
+TEST(LookAhead, an_object_that_comes_out_beside_where_it_was_predicted_has_not_leapt_there) {
+  ObjectTrack track;
+  track.stamp = track.state.stamp = kStart;
+  track.state.mean[3] = 10;  // m/s, known well; its place is not, as something hides it
+  track.state.covariance.diagonal() << 1, 1, 1e-4, 0.01, 0.01, 1e-4, 1e-4, 1e-4;
+  TrackState out = predicted(track.state, shifted(kStart, kPeriod_s), {});
+  out.mean[0] += 0.8;
+  out.covariance.topLeftCorner<2, 2>() = 1e-4 * Eigen::Matrix2d::Identity();
+  track.ahead = Ahead{track.state, out, 5};
+  EXPECT_NEAR(track.expected_at(shifted(kStart, 0.05), {}).step().mean.x(), 0.5, 0.02);
+}
+
 TEST(LookAhead, leaves_the_tracks_where_they_are) {
   const ObjectTrack track = SightsOfOne({20, 21, 22}).track_of_first(2);
   EXPECT_EQ(track.stamp, kStart);
