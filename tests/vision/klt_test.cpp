@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
+#include <algorithm>
 #include <cmath>
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
@@ -205,6 +206,22 @@ TEST(Klt, the_result_does_not_depend_on_the_number_of_threads) {
   EXPECT_EQ(parallel.residual, serial.residual);
 }
 
+TEST(Klt, patches_that_are_kept_are_found_on_further_pictures_where_new_ones_are) {
+  const auto points = grid_of_points(20);
+  const ImagePyramid from(picture({}));
+  std::vector<PatchReference> kept(points.size());
+  std::vector<PatchReference*> references;
+  for (PatchReference& reference : kept) references.push_back(&reference);
+  for (const double shift : {0.3, 0.8}) {
+    const ImagePyramid to(picture({1.01, 0.01, {shift, shift}}));
+    const KltResult anew = align_points({from, to, points, points}, {});
+    const KltResult again = align_points({from, to, points, points, nullptr, references}, {});
+    EXPECT_GT(std::count(anew.tracked.begin(), anew.tracked.end(), 1), 50);
+    EXPECT_EQ(again.tracked, anew.tracked);
+    EXPECT_EQ(again.points, anew.points);
+  }
+}
+
 TEST(Klt, no_points_give_an_empty_result) {
   const ImagePyramid pyramid(picture({}));
   const auto result = track_points(pyramid, pyramid, {});
@@ -220,6 +237,9 @@ TEST(Klt, wrong_input_is_refused) {
   EXPECT_THROW(
       (void)track_points(pyramid, ImagePyramid(image(cv::Rect(0, 0, 100, 100))), {{50, 50}}),
       std::invalid_argument);
+  PatchReference one;
+  EXPECT_THROW((void)align_points({pyramid, pyramid, {}, {}, nullptr, {&one}}, {}),
+               std::invalid_argument);
   EXPECT_THROW(ImagePyramid{cv::Mat()}, std::invalid_argument);
   EXPECT_THROW((ImagePyramid{cv::Mat(100, 100, CV_8UC3)}), std::invalid_argument);
   KltOptions even_window;
