@@ -211,6 +211,7 @@ TEST(Klt, patches_that_are_kept_are_found_on_further_pictures_where_new_ones_are
   const ImagePyramid from(picture({}));
   std::vector<PatchReference> kept(points.size());
   std::vector<PatchReference*> references;
+  references.reserve(kept.size());
   for (PatchReference& reference : kept) references.push_back(&reference);
   for (const double shift : {0.3, 0.8}) {
     const ImagePyramid to(picture({1.01, 0.01, {shift, shift}}));
