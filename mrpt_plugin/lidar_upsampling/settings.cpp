@@ -223,9 +223,12 @@ void list_tracks(Config& c, SettingList& v) {
            "log-odds of moving decay to the prior's within this");
   v.number("unknown_speed_sigma_m_s", t.noise.unknown_speed_sigma, kPositive,
            "per axis, of an object seen for the first time");
-  v.number("aside_speed_sigma_m_s", t.noise.aside_speed_sigma, kPositive,
-           "across our road or its own sides, of one that goes along these, as half of them do");
-  v.number("unknown_yaw_rate_sigma_rad_s", t.noise.unknown_yaw_rate_sigma, kPositive, "likewise");
+  v.number(
+      "slow_speed_sigma_m_s", t.noise.slow_speed_sigma, kPositive,
+      "likewise, of one that looks like a person; and across our road or its own sides, of one "
+      "that goes along these, as half of the others do");
+  v.number("unknown_yaw_rate_sigma_rad_s", t.noise.unknown_yaw_rate_sigma, kPositive,
+           "of an object seen for the first time");
   v.number("acceleration_sigma_m_s2", t.noise.acceleration_sigma, kPositive,
            "per axis, by which velocities change");
   v.number("acceleration_time_s", t.noise.acceleration_time, kPositive, "that it lasts");
@@ -242,16 +245,13 @@ void list_tracks(Config& c, SettingList& v) {
   v.number("outlier_density_per_m2", t.outlier_density, kPositive, "of where these lead");
   v.number("common_error_px", t.common_error_px, kPositive,
            "what all points of an object have wrong alike on the picture");
-  v.number("sigma_px", t.points.sigma_px, kPositive,
-           "expected scatter of a followed point, per axis");
   v.number("degrees_of_freedom", t.points.degrees_of_freedom, kPositive,
            "of Student's t: the fewer, the more points go astray");
   v.number("points_per_observation", t.points.points_per_observation, {1, 1000},
            "neighbouring points err alike: so many count as one");
   v.number("height_sigma_m", t.height_sigma_m, kPositive, "vehicles stay on the ground");
   v.number("tilt_sigma_deg", t.tilt_sigma_deg, kPositive, "vehicles stay level");
-  v.number("height_rate_sigma_m_s", t.height_rate_sigma, kPositive, "added per second");
-  v.number("tilt_rate_sigma_deg_s", t.tilt_rate_sigma_deg, kPositive, "likewise");
+  v.number("ground_time_s", t.ground_time_s, kPositive, "both grow by as much again within this");
 }
 
 void list_resampling(Config& c, SettingList& v) {

@@ -112,7 +112,7 @@ TEST(TrackState, along_a_road_may_be_as_fast_as_any_but_goes_little_aside) {
   const Eigen::Matrix2d of_velocity = going_along(any, 0.3, noise).covariance.block<2, 2>(3, 3);
   const Eigen::Vector2d along(std::cos(0.3), std::sin(0.3)), aside(-along.y(), along.x());
   EXPECT_NEAR(along.dot(of_velocity * along), any.covariance(3, 3), 1e-9);
-  EXPECT_NEAR(aside.dot(of_velocity * aside), std::pow(noise.aside_speed_sigma, 2), 1e-9);
+  EXPECT_NEAR(aside.dot(of_velocity * aside), std::pow(noise.slow_speed_sigma, 2), 1e-9);
 }
 
 TEST(TrackState, is_no_other_where_what_comes_is_as_predicted) {

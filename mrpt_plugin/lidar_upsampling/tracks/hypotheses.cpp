@@ -160,13 +160,9 @@ MotionExpected expected_motion(const TrackState& at_instant, const Eigen::Matrix
   MotionExpected expected;
   expected.mean[2] = step.mean[2];
   expected.mean.segment<2>(3) = R * step.mean.head<2>();
-  const double tilt =
-      options.ground_factor
-          ? (options.tilt_sigma_deg + options.tilt_rate_sigma_deg * std::abs(dt)) * kDegree
-          : kAnyTilt;
-  const double rise = options.ground_factor
-                          ? options.height_sigma_m + options.height_rate_sigma * std::abs(dt)
-                          : kAnyRise_m;
+  const double grown = 1 + std::abs(dt) / options.ground_time_s;
+  const double tilt = options.ground_factor ? options.tilt_sigma_deg * grown * kDegree : kAnyTilt;
+  const double rise = options.ground_factor ? options.height_sigma_m * grown : kAnyRise_m;
   Matrix6d& P = expected.covariance;
   P.setZero();
   P.diagonal() << tilt * tilt, tilt * tilt, step.covariance(2, 2), 0, 0, rise * rise;

@@ -37,8 +37,7 @@ struct TrackOptions {
   double common_error_px = 0.25;  ///< what all points of an object have wrong alike on the picture
   double height_sigma_m = 0.02;   ///< vehicles stay on the ground...
   double tilt_sigma_deg = 0.3;    ///< ...and level...
-  double height_rate_sigma = 0.2;  ///< ...plus these times the time since the key scan, m/s
-  double tilt_rate_sigma_deg = 3;  ///< deg/s
+  double ground_time_s = 0.1;     ///< ...and by as much again within this since the key scan
 };
 
 /// An object candidate of a scan.

@@ -94,7 +94,7 @@ TrackState new_track_state(Stamp stamp, const MotionNoise& noise) {
 
 TrackState going_along(TrackState state, double heading, const MotionNoise& noise) {
   const Eigen::Matrix2d R = Eigen::Rotation2Dd(heading).toRotationMatrix();
-  const Eigen::Vector2d sigma(noise.unknown_speed_sigma, noise.aside_speed_sigma);
+  const Eigen::Vector2d sigma(noise.unknown_speed_sigma, noise.slow_speed_sigma);
   state.covariance.block<2, 2>(3, 3) = R * sigma.cwiseAbs2().asDiagonal() * R.transpose();
   return state;
 }

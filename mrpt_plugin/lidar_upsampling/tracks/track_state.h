@@ -12,8 +12,8 @@ namespace lidar_upsampling {
 /// while (Singer, IEEE Trans. AES 1970; Bar-Shalom et al., Estimation with Applications to Tracking
 /// and Navigation, 8.2.3).
 struct MotionNoise {
-  double unknown_speed_sigma = 20;      ///< m/s per axis, of an object seen for the first time
-  double aside_speed_sigma = 2;         ///< m/s, likewise, across what it goes along, if anything
+  double unknown_speed_sigma = 20;  ///< m/s per axis, of an object seen for the first time
+  double slow_speed_sigma = 2;  ///< m/s, likewise, on foot; and across what it goes along, if so
   double unknown_yaw_rate_sigma = 0.3;  ///< rad/s, likewise
   double acceleration_sigma = 2;        ///< m/s^2 per axis
   double acceleration_time = 2;         ///< s, that it lasts
