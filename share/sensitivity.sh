@@ -8,16 +8,16 @@
 . "$(dirname "$0")/runs.sh"
 read -r -a seeds <<< "${SEEDS:-101}"
 read -r -a names <<< "${SCENARIOS:-motorway crossing_crowd real_rig}"
-sections="points klt object_tracks" also="object_motion.sigma_px"
+sections="points klt object_tracks object_motion.sigma_px"  # or single settings
 failed=0
 mkdir -p "$OUT/sensitivity"
 
 # Lines of setting, its value, and the settings with 0.7 and 1.4 of it; - where it takes no such value.
 parameters() {
   local setting value factor changed line
-  "$(tool rawlog-densify)" --print-config | awk -v sections=" $sections " -v also=" $also " -v wanted=" ${PARAMETERS:-} " '
+  "$(tool rawlog-densify)" --print-config | awk -v sections=" $sections " -v wanted=" ${PARAMETERS:-} " '
     /^\[/ { section = substr($0, 2, length($0) - 2) }
-    (index(sections, " " section " ") || index(also, " " section "." $1 " ")) && $2 == "=" && $3 ~ /^[0-9.e+-]+$/ && $3 != 0 {
+    (index(sections, " " section " ") || index(sections, " " section "." $1 " ")) && $2 == "=" && $3 ~ /^[0-9.e+-]+$/ && $3 != 0 {
       if (wanted == "  " || index(wanted, " " section "." $1 " ")) print section "." $1, $3
     }' | while read -r setting value; do
       line="$setting $value"

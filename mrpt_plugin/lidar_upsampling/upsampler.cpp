@@ -32,6 +32,7 @@ LidarUpsampler::LidarUpsampler(const Config& config)
   // What is too large for a candidate is split before it is given up.
   config_.segments.clusters.max_length = config.detector.clusters.max_length;
   config_.segments.clusters.max_width = config.detector.clusters.max_width;
+  // Pictures are as noisy for tracks as for the pose of an object's points.
   config_.object_tracks.points.sigma_px = config.object_motion.picture.pose.sigma_px;
 }
 
