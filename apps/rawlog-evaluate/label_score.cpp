@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <set>
+#include <utility>
 
 #include "lidar_upsampling/vision/projection.h"
 
@@ -69,12 +70,17 @@ void judge_instant(const LabelledInstant& instant, const RowsAt& rows,
   std::set<const ReportedObject*> claimed;
   for (const LabelledBox& box : instant.boxes) {
     const ReportedObject* mine = nullptr;
-    for (auto row = first; row != last; ++row) {
-      if (!row->second->in_view && !box.counts) continue;
-      if (!holds(box, at_key(row->second->position, *row->second, instant), options.grown_m))
-        continue;
-      claimed.insert(row->second);
-      if (mine == nullptr || row->second->points > mine->points) mine = row->second;
+    std::pair<bool, int> best;  // a post beside a walker is not the walker
+    for (auto it = first; it != last; ++it) {
+      const ReportedObject& row = *it->second;
+      if (!row.in_view && !box.counts) continue;
+      const Eigen::Vector3d place = at_key(row.position, row, instant);
+      if (!holds(box, place, options.grown_m)) continue;
+      claimed.insert(&row);
+      const std::pair<bool, int> rank(holds(box, place, 0), row.points);
+      if (mine != nullptr && rank <= best) continue;
+      mine = &row;
+      best = rank;
     }
     judge_box(box, mine, instant, options, score);
     follow(box, mine, tracks, score);

@@ -81,8 +81,8 @@ struct LabelScore {
 
 /// @brief Judges the rows of a report. A row belongs to the box that holds it at the key scan,
 /// taken back there by its own velocity, so that a wrong velocity does not hide it; of several the
-/// one with most points counts. Rows out of view are there for boxes that count: a picture may show
-/// of an object what the scan does not.
+/// one with most points counts, and one beside the box only where none lies in it. Rows out of view
+/// are there for boxes that count: a picture may show of an object what the scan does not.
 [[nodiscard]] LabelScore score_labels(const std::vector<LabelledInstant>& instants,
                                       const std::vector<ReportedObject>& told,
                                       const LabelScoreOptions& options);

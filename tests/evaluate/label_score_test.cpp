@@ -124,6 +124,13 @@ TEST(LabelScore, of_several_rows_in_a_label_the_one_with_most_points_counts) {
   EXPECT_NEAR(score.movers[0].error_m, 0, 1e-9);
 }
 
+TEST(LabelScore, a_post_beside_a_label_does_not_tell_of_it_where_a_row_in_it_does) {
+  ReportedObject walker = told({20, 0, 0}, {14, 0, 0}), post = told({20, 1.3, 0}, {}, false);
+  walker.points = 5;
+  EXPECT_NEAR(score_of(car_at(14), {post, walker}).movers[0].error_m, 0, 1e-9);
+  EXPECT_NEAR(score_of(car_at(14), {post}).movers[0].error_m, 1.4, 1e-9);
+}
+
 TEST(LabelScore, a_box_out_of_view_takes_its_rows_but_does_not_count) {
   LabelledInstant instant = car_at(14);
   instant.boxes[0].counts = false;
