@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "lidar_upsampling/objects/cluster_extent.h"
+#include "lidar_upsampling/registration/point_index.h"
 #include "lidar_upsampling/registration/voxel_grid.h"
 
 namespace lidar_upsampling {
@@ -37,7 +38,7 @@ bool is_near(const Claim& claim, const ScanObject& object, const Pose& T_rest_li
          (object.length + claim.track->whole_length) / 2 + kReach_m;
 }
 
-/// Those who may have a part in the object; empty unless one moves.
+/// Those who may have a part in the object.
 std::vector<Claim> claims_on(const ScanObject& object, const TrackStore& store,
                              const TrackedScan& scan, const TrackOptions& options) {
   std::vector<Claim> claims;
@@ -54,7 +55,6 @@ std::vector<Claim> claims_on(const ScanObject& object, const TrackStore& store,
       if (moving && !is_predictable(track, claim.now, options)) continue;
       claims.push_back(std::move(claim));
     }
-    if (claims.empty()) break;
   }
   return claims;
 }
@@ -79,12 +79,62 @@ std::vector<int> motions_of(const std::vector<Claim>& claims) {
   return motion_of;
 }
 
+/// Whether its last two sights lie one upon the other, too: what goes as fast as we looks as if it
+/// locked to the beams.
+bool is_still(const ObjectTrack& track) {
+  return !track.passage || track.passage->arrived.mean.head<2>().norm() < kReach_m;
+}
+
+/// The claim of what was seen last, if all are still: else what moves may be what has come.
+const Claim* last_standing(const std::vector<Claim>& claims) {
+  const Claim* last = nullptr;
+  for (const Claim& claim : claims) {
+    if (claim.moves || !is_still(*claim.track)) return nullptr;
+    if (claim.track->seen && (last == nullptr || last->track->stamp < claim.track->stamp))
+      last = &claim;
+  }
+  return last;
+}
+
+/// Whether that scan saw through a place: what stands is not there.
+bool was_free(const Claim& claim, const Eigen::Vector3f& place) {
+  return claim.track->seen->at(claim.T_then_lidar * place) == Sight::seen_through;
+}
+
+/// Whether something may have come, by some of the points.
+bool may_have_come(const ScanObject& object, const LidarScan& scan, const Claim& standing) {
+  constexpr std::size_t kAsked = 400;
+  for (std::size_t i = 0; i < object.points.size(); i += 1 + object.points.size() / kAsked)
+    if (was_free(standing, scan.points[object.points[i]])) return true;
+  return false;
+}
+
+/// Places of what has come: off all that was known to stand, where it was free.
+std::vector<Eigen::Vector3f> newcomers(const std::vector<Eigen::Vector3f>& places,
+                                       const std::vector<Claim>& claims, const Claim& standing) {
+  std::vector<Eigen::Vector3f> result;
+  for (const Eigen::Vector3f& place : places) {
+    if (!was_free(standing, place)) continue;
+    const auto lies_on = [&](const Claim& claim) {
+      constexpr float kSqReach = kReach_m * kReach_m;
+      return claim.track->surface->nearest(claim.T_then_lidar * place, kSqReach).index >= 0;
+    };
+    if (std::none_of(claims.begin(), claims.end(), lies_on)) result.push_back(place);
+  }
+  return result;
+}
+
+bool all_alike(const std::vector<int>& motion_of) {
+  return std::count(motion_of.begin(), motion_of.end(), 0) == static_cast<long>(motion_of.size());
+}
+
 /// Squared distances of places from where each motion's surfaces are predicted.
 using Distances = std::vector<std::vector<float>>;
 
 /// @param places lidar frame. @param far what is farther lies as far as that.
+/// @param came the last motion's, of which no track tells.
 Distances distances(const std::vector<Eigen::Vector3f>& places, const std::vector<Claim>& claims,
-                    const std::vector<int>& motion_of, float far) {
+                    const std::vector<int>& motion_of, const PointIndex& came, float far) {
   const int num_motions = 1 + *std::max_element(motion_of.begin(), motion_of.end());
   Distances result(num_motions, std::vector<float>(places.size(), far));
   for (std::size_t c = 0; c < claims.size(); ++c) {
@@ -94,6 +144,10 @@ Distances distances(const std::vector<Eigen::Vector3f>& places, const std::vecto
       least = std::min(least, claims[c].track->surface->nearest(then, least).sq_distance);
     }
   }
+  if (came.points().empty()) return result;
+  result.emplace_back(places.size(), far);
+  for (std::size_t i = 0; i < places.size(); ++i)
+    result.back()[i] = std::min(far, came.nearest(places[i], far).sq_distance);
   return result;
 }
 
@@ -132,18 +186,22 @@ ScanObject part_of(const ScanObject& whole, std::vector<int> points, const Lidar
 
 std::vector<ScanObject> parts_of(const ScanObject& object, std::vector<Claim>& claims,
                                  const TrackedScan& scan) {
-  const std::vector<int> motion_of = motions_of(claims);
-  if (std::count(motion_of.begin(), motion_of.end(), 0) == static_cast<long>(claims.size()))
-    return {};
   for (Claim& claim : claims)
     claim.T_then_lidar = from_sight(*claim.track, claim.now, scan.T_rest_lidar).inverse();
+  const std::vector<int> motion_of = motions_of(claims);
+  const Claim* standing = last_standing(claims);
+  if (standing != nullptr ? !may_have_come(object, scan.scan, *standing) : all_alike(motion_of))
+    return {};
   // Surfaces are no finer.
   const VoxelGroups cubes = group_by_voxel(points_at(scan.scan, object.points), kFine_m);
+  const PointIndex came(standing != nullptr ? newcomers(cubes.means, claims, *standing)
+                                            : std::vector<Eigen::Vector3f>{});
+  if (standing != nullptr && came.points().empty()) return {};
   // Most are asked in vain: what is far is looked for only where two are near.
-  Distances to = distances(cubes.means, claims, motion_of, kReach_m * kReach_m);
+  Distances to = distances(cubes.means, claims, motion_of, came, kReach_m * kReach_m);
   const std::vector<bool> is_seen = are_seen(to, cubes.of_point);
   if (std::count(is_seen.begin(), is_seen.end(), true) < 2) return {};
-  to = distances(cubes.means, claims, motion_of, std::numeric_limits<float>::max());
+  to = distances(cubes.means, claims, motion_of, came, std::numeric_limits<float>::max());
   for (std::size_t m = to.size(); m-- > 0;)
     if (!is_seen[m]) to.erase(to.begin() + static_cast<long>(m));
   std::vector<std::vector<int>> points(to.size());
@@ -163,7 +221,7 @@ void part_touching(const TrackStore& store, const TrackedScan& scan, const Track
   tbb::parallel_for(std::size_t{0}, objects.size(), [&](std::size_t i) {
     if (objects[i].external_id >= 0) return;  // the detector has parted it
     std::vector<Claim> claims = claims_on(objects[i], store, scan, options);
-    if (claims.size() > 1) parts[i] = parts_of(objects[i], claims, scan);
+    if (!claims.empty()) parts[i] = parts_of(objects[i], claims, scan);
   });
   for (std::size_t i = 0; i < parts.size(); ++i) {
     if (parts[i].empty()) continue;
