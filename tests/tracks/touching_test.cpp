@@ -69,12 +69,13 @@ Points walker_at(double x, double y) {
 /// What some scans of a street have shown of a parked car.
 /// @param others things in the street.
 TrackStore parked_car(const Points& others = {}) {
+  Points all = car_at(20, 2.2);
+  all.insert(all.end(), others.begin(), others.end());
+  const auto seen = std::make_shared<const SeenSpace>(testing::street_with(all));
   TrackStore store;
   for (int i = 0; i < 4; ++i) {
     StreetScan scan(0.1 * i, {{car_at(20, 2.2)}});
-    Points all = scan.scan.points;
-    all.insert(all.end(), others.begin(), others.end());
-    scan.seen = std::make_shared<const SeenSpace>(testing::street_with(all));
+    scan.seen = seen;
     scan.take_up(store);
   }
   return store;
@@ -115,6 +116,14 @@ TEST(Touching, who_has_come_close_to_what_is_parked_is_a_new_object) {
 
 TEST(Touching, what_was_hidden_beside_what_is_parked_may_have_stood_there_all_along) {
   TrackStore store = parked_car(walker_at(10, 0.4));
+  StreetScan merged(0.4, {{car_at(20, 2.2), walker_at(19.9, 0.8)}});
+  EXPECT_EQ(merged.take_up(store).size(), 1U);
+}
+
+TEST(Touching, what_comes_into_sight_of_who_goes_as_fast_as_we_is_not_somebody_else) {
+  TrackStore store = parked_car();
+  ASSERT_TRUE(store.tracks[0].passage);
+  store.tracks[0].passage->arrived.mean[0] = 1.3;  // told to stand, as its scans lock to the beams
   StreetScan merged(0.4, {{car_at(20, 2.2), walker_at(19.9, 0.8)}});
   EXPECT_EQ(merged.take_up(store).size(), 1U);
 }
