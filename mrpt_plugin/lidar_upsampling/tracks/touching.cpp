@@ -147,7 +147,7 @@ Distances distances(const std::vector<Eigen::Vector3f>& places, const std::vecto
   if (came.points().empty()) return result;
   result.emplace_back(places.size(), far);
   for (std::size_t i = 0; i < places.size(); ++i)
-    result.back()[i] = std::min(far, came.nearest(places[i], far).sq_distance);
+    result.back()[i] = came.nearest(places[i], far).sq_distance;
   return result;
 }
 
