@@ -9,6 +9,7 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include "lidar_upsampling/objects/cluster_extent.h"
@@ -32,29 +33,32 @@ bool stands(const ObjectTrack& track, const TrackOptions& options) {
   return track.latest_log_odds < -std::log(options.loss_ratio);
 }
 
-bool is_near(const Claim& claim, const ScanObject& object, const Pose& T_rest_lidar) {
-  const Eigen::Translation3d step(claim.now.mean[0], claim.now.mean[1], 0);
-  return (step * claim.track->centroid_rest - T_rest_lidar * object.centroid).norm() <
-         (object.length + claim.track->whole_length) / 2 + kReach_m;
+/// @param step of the track since its last sight, level.
+bool is_near(const ObjectTrack& track, const Eigen::Vector2d& step, const ScanObject& object,
+             const Pose& T_rest_lidar) {
+  const Eigen::Translation3d moved(step.x(), step.y(), 0);
+  return (moved * track.centroid_rest - T_rest_lidar * object.centroid).norm() <
+         (object.length + track.whole_length) / 2 + kReach_m;
 }
 
-/// Those who may have a part in the object.
+/// Those who may have a part in the object, movers first.
 std::vector<Claim> claims_on(const ScanObject& object, const TrackStore& store,
                              const TrackedScan& scan, const TrackOptions& options) {
   std::vector<Claim> claims;
   const Stamp instant = shifted(scan.scan.stamp, object.time_s);
-  for (const bool moving : {true, false}) {
-    for (const ObjectTrack& track : store.tracks) {
-      if (moving ? !is_mover(track, options) : !stands(track, options)) continue;
-      Claim claim{&track, track.latest, moving};
-      if (moving)
-        claim.now = predicted(track.latest, instant, options.noise);
-      else
-        claim.now.mean.head<3>().setZero();
-      if (!is_near(claim, object, scan.T_rest_lidar)) continue;
-      if (moving && !is_predictable(track, claim.now, options)) continue;
-      claims.push_back(std::move(claim));
-    }
+  for (const ObjectTrack& track : store.tracks) {
+    if (!is_mover(track, options)) continue;
+    const TrackState now = predicted(track.latest, instant, options.noise);
+    if (is_near(track, now.mean.head<2>(), object, scan.T_rest_lidar) &&
+        is_predictable(track, now, options))
+      claims.push_back({&track, now, true});
+  }
+  for (const ObjectTrack& track : store.tracks) {
+    if (!stands(track, options) ||
+        !is_near(track, Eigen::Vector2d::Zero(), object, scan.T_rest_lidar))
+      continue;
+    claims.push_back({&track, track.latest, false});
+    claims.back().now.mean.head<3>().setZero();
   }
   return claims;
 }
@@ -109,21 +113,6 @@ bool may_have_come(const ScanObject& object, const LidarScan& scan, const Claim&
   return false;
 }
 
-/// Places of what has come: off all that was known to stand, where it was free.
-std::vector<Eigen::Vector3f> newcomers(const std::vector<Eigen::Vector3f>& places,
-                                       const std::vector<Claim>& claims, const Claim& standing) {
-  std::vector<Eigen::Vector3f> result;
-  for (const Eigen::Vector3f& place : places) {
-    if (!was_free(standing, place)) continue;
-    const auto lies_on = [&](const Claim& claim) {
-      constexpr float kSqReach = kReach_m * kReach_m;
-      return claim.track->surface->nearest(claim.T_then_lidar * place, kSqReach).index >= 0;
-    };
-    if (std::none_of(claims.begin(), claims.end(), lies_on)) result.push_back(place);
-  }
-  return result;
-}
-
 bool all_alike(const std::vector<int>& motion_of) {
   return std::count(motion_of.begin(), motion_of.end(), 0) == static_cast<long>(motion_of.size());
 }
@@ -132,9 +121,8 @@ bool all_alike(const std::vector<int>& motion_of) {
 using Distances = std::vector<std::vector<float>>;
 
 /// @param places lidar frame. @param far what is farther lies as far as that.
-/// @param came the last motion's, of which no track tells.
 Distances distances(const std::vector<Eigen::Vector3f>& places, const std::vector<Claim>& claims,
-                    const std::vector<int>& motion_of, const PointIndex& came, float far) {
+                    const std::vector<int>& motion_of, float far) {
   const int num_motions = 1 + *std::max_element(motion_of.begin(), motion_of.end());
   Distances result(num_motions, std::vector<float>(places.size(), far));
   for (std::size_t c = 0; c < claims.size(); ++c) {
@@ -144,11 +132,24 @@ Distances distances(const std::vector<Eigen::Vector3f>& places, const std::vecto
       least = std::min(least, claims[c].track->surface->nearest(then, least).sq_distance);
     }
   }
-  if (came.points().empty()) return result;
-  result.emplace_back(places.size(), far);
-  for (std::size_t i = 0; i < places.size(); ++i)
-    result.back()[i] = came.nearest(places[i], far).sq_distance;
   return result;
+}
+
+/// Places of what has come: off all that was known to stand, where it was free.
+/// @param to squared distances from what stands, the far ones kReach_m.
+std::vector<Eigen::Vector3f> newcomers(const std::vector<Eigen::Vector3f>& places,
+                                       const std::vector<float>& to, const Claim& standing) {
+  std::vector<Eigen::Vector3f> result;
+  for (std::size_t i = 0; i < places.size(); ++i)
+    if (to[i] >= kReach_m * kReach_m && was_free(standing, places[i])) result.push_back(places[i]);
+  return result;
+}
+
+/// One motion more: of what has come, of which no track tells.
+void add_newcomers(const PointIndex& came, const std::vector<Eigen::Vector3f>& places, float far,
+                   Distances& to) {
+  std::vector<float>& row = to.emplace_back();
+  for (const Eigen::Vector3f& place : places) row.push_back(came.nearest(place, far).sq_distance);
 }
 
 /// The motion that is nearest to a place.
@@ -194,14 +195,19 @@ std::vector<ScanObject> parts_of(const ScanObject& object, std::vector<Claim>& c
     return {};
   // Surfaces are no finer.
   const VoxelGroups cubes = group_by_voxel(points_at(scan.scan, object.points), kFine_m);
-  const PointIndex came(standing != nullptr ? newcomers(cubes.means, claims, *standing)
-                                            : std::vector<Eigen::Vector3f>{});
-  if (standing != nullptr && came.points().empty()) return {};
   // Most are asked in vain: what is far is looked for only where two are near.
-  Distances to = distances(cubes.means, claims, motion_of, came, kReach_m * kReach_m);
+  constexpr float kNear = kReach_m * kReach_m, kAny = std::numeric_limits<float>::max();
+  Distances to = distances(cubes.means, claims, motion_of, kNear);
+  std::optional<PointIndex> came;
+  if (standing != nullptr) {
+    came.emplace(newcomers(cubes.means, to.front(), *standing));
+    if (came->points().empty()) return {};
+    add_newcomers(*came, cubes.means, kNear, to);
+  }
   const std::vector<bool> is_seen = are_seen(to, cubes.of_point);
   if (std::count(is_seen.begin(), is_seen.end(), true) < 2) return {};
-  to = distances(cubes.means, claims, motion_of, came, std::numeric_limits<float>::max());
+  to = distances(cubes.means, claims, motion_of, kAny);
+  if (came) add_newcomers(*came, cubes.means, kAny, to);
   for (std::size_t m = to.size(); m-- > 0;)
     if (!is_seen[m]) to.erase(to.begin() + static_cast<long>(m));
   std::vector<std::vector<int>> points(to.size());
