@@ -48,16 +48,6 @@ std::vector<Start> starts_of(const CameraView& view, const Pose& T_camera_t_lida
   return starts;
 }
 
-/// Points of the likeliest ways go on from where they were found last.
-void start_where_last_found(Start& likeliest, PointTracks& points) {
-  for (std::size_t j = 0; j < likeliest.which.size(); ++j) {
-    const std::size_t i = likeliest.which[j];
-    const cv::Point2f expected = likeliest.guesses[j];
-    if (points.found[i] != 0) likeliest.guesses[j] += points.last_px[i] - points.predicted_px[i];
-    points.predicted_px[i] = expected;
-  }
-}
-
 void forget(PointTracks& points, const std::vector<std::size_t>& which) {
   for (const std::size_t i : which) points.found[i] = 0;
 }
@@ -136,8 +126,7 @@ Start searched(const CameraView& view, const Picture& picture, const Pose& T_cam
 void follow_ways(CameraView& view, const Picture& picture, const Pose& T_camera_t_lidar_k,
                  const std::vector<Ways>& ways, const KltOptions& options) {
   PointTracks& points = view.points;
-  std::vector<Start> starts = starts_of(view, T_camera_t_lidar_k, ways);
-  start_where_last_found(starts.front(), points);
+  const std::vector<Start> starts = starts_of(view, T_camera_t_lidar_k, ways);
   const auto follow = [&](const Start& start, const auto& follow_points) {
     if (start.which.empty()) return;
     std::vector<cv::Point2f> from;

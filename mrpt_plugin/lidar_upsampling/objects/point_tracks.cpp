@@ -55,7 +55,6 @@ void add_points(PointTracks& tracks, const std::vector<ProjectedPoint>& projecte
     tracks.owner.push_back(owner);
     tracks.anchor_px.emplace_back(point.u, point.v);
     tracks.last_px.emplace_back(point.u, point.v);
-    tracks.predicted_px.emplace_back(point.u, point.v);
     tracks.found.push_back(1);
     tracks.residual.push_back(0);
     tracks.covariance.emplace_back(Eigen::Matrix2f::Zero());

@@ -28,7 +28,6 @@ struct PointTracks {
   std::vector<int> owner;                   ///< the object candidate, or kStaticOwner
   std::vector<cv::Point2f> anchor_px;       ///< where it was put
   std::vector<cv::Point2f> last_px;         ///< where it was last found
-  std::vector<cv::Point2f> predicted_px;    ///< where it was expected then
   std::vector<std::uint8_t> found;          ///< on the last image
   std::vector<float> residual;              ///< there, gray levels
   std::vector<Eigen::Matrix2f> covariance;  ///< of last_px, px^2, by its texture
