@@ -17,7 +17,7 @@ struct ObjectOnPicture {
   int num_followed = 0;            ///< found or not
   ImageView view;                  ///< `share` in seconds since the object's own sight
   std::vector<Twist> starts;       ///< motions that led to the points
-  std::optional<MotionFit> alone;  ///< as the paper: what it says by itself, if anything
+  std::optional<MotionFit> alone;  ///< what the picture says by itself, where it was asked
 };
 
 /// What one image says.

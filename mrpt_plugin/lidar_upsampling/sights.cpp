@@ -57,6 +57,20 @@ PlanarStep in_lidar(const PlanarStep& step, const Eigen::Matrix3d& R_rest_lidar_
   return {R * step.mean, R * step.covariance * R.transpose()};
 }
 
+// Whether one of the expected motions explains most of the points.
+bool is_explained(const std::vector<Observation>& seen, const Pose& T_camera_lidar_k,
+                  const Eigen::Vector3d& centroid, const std::vector<Twist>& starts,
+                  double near_px) {
+  constexpr double kMost = 0.5;
+  return std::any_of(starts.begin(), starts.end(), [&](const Twist& start) {
+    const Pose T = T_camera_lidar_k * motion_pose(start, centroid);
+    const auto near = std::count_if(seen.begin(), seen.end(), [&](const Observation& observation) {
+      return sq_reprojection_error(observation, T) < near_px * near_px;
+    });
+    return static_cast<double>(near) >= kMost * static_cast<double>(seen.size());
+  });
+}
+
 // From what a picture shows to have changed since the anchor to the motion since the object's
 // sight, as fast.
 void since_sight(MotionFit& fit, const ImageView& view, double dt) {
@@ -120,6 +134,7 @@ void note_sights(std::vector<ObjectOnPicture>& sights, const CameraView& view,
                  const Picture& picture, const KeyObjects& objects, const Pose& ego,
                  const Config& config) {
   const LidarScan& scan = objects.key.scan;
+  const PictureMotionOptions& options = config.object_motion.picture;
   const Pose T_camera_lidar_k = T_camera_lidar_of(view.camera, scan.T_vehicle_lidar) * ego;
   const double dt = seconds_between(scan.stamp, picture.instant);
   for (const int owner : view.points.owner)
@@ -134,10 +149,15 @@ void note_sights(std::vector<ObjectOnPicture>& sights, const CameraView& view,
     const double until_anchor = view.anchor_dt == 0 ? 0 : view.anchor_dt - object.time_s;
     sight.view = {T_camera_lidar_k, dt - object.time_s - until_anchor,
                   exp_se3(Twist(object.rate * until_anchor)) * object.centroid - object.centroid};
-    if (config.object_motion.world_tracks) return;
-    sight.alone = picture_motion(pairs, view.camera.model, T_camera_lidar_k, object.centroid,
-                                 config.object_motion.picture);
-    if (sight.alone) since_sight(*sight.alone, sight.view, dt - object.time_s);
+    if (config.object_motion.world_tracks &&
+        is_explained(sight.seen, T_camera_lidar_k, object.centroid, sight.starts,
+                     options.pose.first_gate_px))
+      return;
+    sight.alone =
+        picture_motion(pairs, view.camera.model, T_camera_lidar_k, object.centroid, options);
+    if (!sight.alone) return;
+    since_sight(*sight.alone, sight.view, dt - object.time_s);
+    sight.starts.push_back(sight.alone->mean);
   });
 }
 
