@@ -8,8 +8,9 @@
 
 namespace lidar_upsampling {
 
-/// @brief Which way an object's faces look, level: by the normals of its surface. Of what is no
-/// face, or lies on a single ring or column of beams, it is not known.
+/// @brief Which way an object's faces look, level: by the normals of its surface and, where one
+/// ring alone shows a face, by the line that this is from above. Of what is no face, or a single
+/// column of beams, it is not known.
 class Faces {
  public:
   explicit Faces(const Surface& surface);
