@@ -16,13 +16,23 @@ namespace {
 
 constexpr double kFarOutside = -1e4;
 
-cv::Point2f pixel_of(const CameraView& view, std::size_t i, const Pose& T_camera_t_lidar_k,
-                     const Pose& T_mov) {
-  const auto pixel =
-      project(view.camera.model, T_camera_t_lidar_k * (T_mov * view.points.point[i]), kFarOutside);
-  return pixel ? cv::Point2f(static_cast<float>(pixel->x()), static_cast<float>(pixel->y()))
-               : view.points.last_px[i];
-}
+/// Where a point is looked for after a motion.
+class Guesses {
+ public:
+  Guesses(const CameraView& view, const Pose& T_camera_t_lidar_k)
+      : points_(view.points), pixel_of_(view.camera.model), T_camera_lidar_(T_camera_t_lidar_k) {}
+
+  [[nodiscard]] cv::Point2f at(std::size_t i, const Pose& T_mov) const {
+    const auto pixel = pixel_of_(T_camera_lidar_ * (T_mov * points_.point[i]), kFarOutside);
+    return pixel ? cv::Point2f(static_cast<float>(pixel->x()), static_cast<float>(pixel->y()))
+                 : points_.last_px[i];
+  }
+
+ private:
+  const PointTracks& points_;
+  Projector pixel_of_;
+  const Pose& T_camera_lidar_;
+};
 
 /// Points that may have gone one way, and where they then are.
 struct Start {
@@ -34,6 +44,8 @@ struct Start {
 std::vector<Start> starts_of(const CameraView& view, const Pose& T_camera_t_lidar_k,
                              const std::vector<Ways>& ways) {
   const PointTracks& points = view.points;
+  const Guesses guesses(view, T_camera_t_lidar_k);
+  const Pose still = Pose::Identity();
   std::vector<Start> starts(1);
   for (std::size_t i = 0; i < points.size(); ++i) {
     const std::size_t count = points.owner[i] < 0 ? 1 : ways[points.owner[i]].motions.size();
@@ -41,8 +53,7 @@ std::vector<Start> starts_of(const CameraView& view, const Pose& T_camera_t_lida
     for (std::size_t way = 0; way < count; ++way) {
       starts[way].which.push_back(i);
       starts[way].guesses.push_back(
-          pixel_of(view, i, T_camera_t_lidar_k,
-                   points.owner[i] < 0 ? Pose::Identity() : ways[points.owner[i]].motions[way]));
+          guesses.at(i, points.owner[i] < 0 ? still : ways[points.owner[i]].motions[way]));
     }
   }
   return starts;
@@ -111,12 +122,13 @@ Start searched(const CameraView& view, const Picture& picture, const Pose& T_cam
   tbb::parallel_for(std::size_t{0}, ways.size(), [&](std::size_t k) {
     motions[k] = search_surface(surfaces[k], ways[k].step, options);
   });
+  const Guesses guesses(view, T_camera_t_lidar_k);
   Start start;
   for (const std::size_t i : lost) {
     const int owner = view.points.owner[i];
     if (owner < 0 || !motions[owner]) continue;
     start.which.push_back(i);
-    start.guesses.push_back(pixel_of(view, i, T_camera_t_lidar_k, *motions[owner]));
+    start.guesses.push_back(guesses.at(i, *motions[owner]));
   }
   return start;
 }

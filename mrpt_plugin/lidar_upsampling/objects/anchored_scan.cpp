@@ -119,10 +119,11 @@ std::vector<ProjectedPoint> followable_points(const AnchoredScan& anchored,
 std::vector<ProjectedPoint> reprojected(const std::vector<ProjectedPoint>& points,
                                         const LidarScan& scan, const CameraModel& camera,
                                         const Pose& T_camera_a_lidar_k) {
+  const Projector pixel_of(camera);
   std::vector<ProjectedPoint> moved;
   for (ProjectedPoint point : points) {
     const Eigen::Vector3d p = T_camera_a_lidar_k * scan.points[point.index].cast<double>();
-    const auto pixel = project(camera, p);
+    const auto pixel = pixel_of(p);
     if (!pixel) continue;
     point.u = static_cast<float>(pixel->x());
     point.v = static_cast<float>(pixel->y());

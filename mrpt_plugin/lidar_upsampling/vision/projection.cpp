@@ -14,20 +14,6 @@ namespace {
 
 constexpr std::size_t kPointsPerChunk = 8192;
 
-/// `max_radius` is valid_radius() of the model, here because it costs more than a projection.
-std::optional<Eigen::Vector2d> project_within(const CameraModel& model, double max_radius,
-                                              const Eigen::Vector3d& point, double margin_px) {
-  if (!(point.z() > kNearestDepth)) return std::nullopt;
-  const Eigen::Vector2d normalised = point.head<2>() / point.z();
-  if (!(normalised.squaredNorm() < max_radius * max_radius)) return std::nullopt;
-  const Eigen::Vector2d distorted = distort(model, normalised).point;
-  const double u = model.fx * distorted.x() + model.cx;
-  const double v = model.fy * distorted.y() + model.cy;
-  if (!(u >= margin_px && u <= model.width - 1 - margin_px)) return std::nullopt;
-  if (!(v >= margin_px && v <= model.height - 1 - margin_px)) return std::nullopt;
-  return Eigen::Vector2d(u, v);
-}
-
 }  // namespace
 
 void check(const CameraModel& model) {
@@ -47,9 +33,24 @@ void check(const CameraModel& model) {
   if (!finite) throw std::invalid_argument("camera model: a parameter is not a finite number");
 }
 
+Projector::Projector(const CameraModel& model) : model_(model), max_radius_(valid_radius(model)) {}
+
+std::optional<Eigen::Vector2d> Projector::operator()(const Eigen::Vector3d& point_in_camera,
+                                                     double margin_px) const {
+  if (!(point_in_camera.z() > kNearestDepth)) return std::nullopt;
+  const Eigen::Vector2d normalised = point_in_camera.head<2>() / point_in_camera.z();
+  if (!(normalised.squaredNorm() < max_radius_ * max_radius_)) return std::nullopt;
+  const Eigen::Vector2d distorted = distort(model_, normalised).point;
+  const double u = model_.fx * distorted.x() + model_.cx;
+  const double v = model_.fy * distorted.y() + model_.cy;
+  if (!(u >= margin_px && u <= model_.width - 1 - margin_px)) return std::nullopt;
+  if (!(v >= margin_px && v <= model_.height - 1 - margin_px)) return std::nullopt;
+  return Eigen::Vector2d(u, v);
+}
+
 std::optional<Eigen::Vector2d> project(const CameraModel& model,
                                        const Eigen::Vector3d& point_in_camera, double margin_px) {
-  return project_within(model, valid_radius(model), point_in_camera, margin_px);
+  return Projector(model)(point_in_camera, margin_px);
 }
 
 std::optional<Eigen::Vector2d> undistort(const CameraModel& model, const Eigen::Vector2d& pixel) {
@@ -62,14 +63,14 @@ std::vector<ProjectedPoint> project_scan(const CameraModel& model, const Pose& T
                                          const std::vector<Eigen::Vector3f>& points,
                                          double margin_px) {
   check(model);
-  const double max_radius = valid_radius(model);
+  const Projector pixel_of(model);
   const std::size_t num_chunks = (points.size() + kPointsPerChunk - 1) / kPointsPerChunk;
   std::vector<std::vector<ProjectedPoint>> chunks(num_chunks);
   tbb::parallel_for(std::size_t{0}, num_chunks, [&](std::size_t chunk) {
     const std::size_t end = std::min(points.size(), (chunk + 1) * kPointsPerChunk);
     for (std::size_t i = chunk * kPointsPerChunk; i < end; ++i) {
       const Eigen::Vector3d point = T_camera_lidar * points[i].cast<double>();
-      const auto pixel = project_within(model, max_radius, point, margin_px);
+      const auto pixel = pixel_of(point, margin_px);
       if (!pixel) continue;
       chunks[chunk].push_back({static_cast<int>(i), static_cast<float>(pixel->x()),
                                static_cast<float>(pixel->y()), static_cast<float>(point.z())});

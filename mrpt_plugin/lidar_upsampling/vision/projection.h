@@ -30,6 +30,20 @@ void check(const CameraModel& model);
                                                      const Eigen::Vector3d& point_in_camera,
                                                      double margin_px = 0);
 
+/// @brief project() for many points: where the lens model holds is found once, which costs as much
+/// as a hundred projections. The model must outlive it.
+class Projector {
+ public:
+  explicit Projector(const CameraModel& model);
+
+  [[nodiscard]] std::optional<Eigen::Vector2d> operator()(const Eigen::Vector3d& point_in_camera,
+                                                          double margin_px = 0) const;
+
+ private:
+  const CameraModel& model_;
+  double max_radius_;  ///< normalised
+};
+
 /// @brief The normalised coordinates (x/z, y/z) that a pixel sees.
 /// @return none where the lens model does not hold.
 [[nodiscard]] std::optional<Eigen::Vector2d> undistort(const CameraModel& model,
