@@ -48,7 +48,10 @@ float sq_distance(const SmallPatch& a, const SmallPatch& b) {
 class SurfaceOnLevel {
  public:
   SurfaceOnLevel(const LostSurface& lost, int level)
-      : lost_(lost), image_(lost.to.levels()[2 * level]), scale_(std::pow(0.5F, level)) {
+      : lost_(lost),
+        pixel_of_(lost.camera),
+        image_(lost.to.levels()[2 * level]),
+        scale_(std::pow(0.5F, level)) {
     const std::size_t stride = lost.points.size() / kMostPoints + 1;
     for (std::size_t i = 0; i < lost.points.size(); i += stride) {
       SmallPatch patch;
@@ -69,7 +72,7 @@ class SurfaceOnLevel {
     const Pose T = lost_.T_camera_source * T_mov;
     double sum = 0;
     for (std::size_t i = 0; i < points_.size(); ++i) {
-      const auto pixel = project(lost_.camera, T * points_[i]);
+      const auto pixel = pixel_of_(T * points_[i]);
       SmallPatch patch;
       const bool is_shown = pixel && cut_patch(image_,
                                                scale_ * cv::Point2f(static_cast<float>(pixel->x()),
@@ -82,6 +85,7 @@ class SurfaceOnLevel {
 
  private:
   const LostSurface& lost_;
+  Projector pixel_of_;
   const cv::Mat& image_;
   float scale_;
   std::vector<Eigen::Vector3d> points_;  ///< source frame
@@ -166,9 +170,11 @@ std::optional<Pose> search_surface(const LostSurface& lost, const PlanarStep& ex
   };
   const double aside_px = reach_px(0);
   if (!(aside_px > 0.5 * options.window_px)) return {};
+  // A pyramid of a small picture has fewer.
+  const std::size_t levels = std::min(lost.from.levels().size(), lost.to.levels().size()) / 2;
+  const int smallest = std::min(options.pyramid_levels, static_cast<int>(levels) - 1);
   int level = 0;
-  while (level < options.pyramid_levels && 2 * aside_px > kStep_px * kMostSteps * (1 << level))
-    ++level;
+  while (level < smallest && 2 * aside_px > kStep_px * kMostSteps * (1 << level)) ++level;
   const Eigen::Matrix3d information = expected.covariance.inverse();
   Eigen::Vector3d astray = Eigen::Vector3d::Zero();
   for (int now = level; now >= 0; --now) {
