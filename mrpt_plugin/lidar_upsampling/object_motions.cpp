@@ -27,9 +27,10 @@ Appearance appearance_of(const Camera& camera, const Pose& T_vehicle_lidar,
                          const std::vector<Eigen::Vector3f>& points,
                          const Pose& T_lidar_t_lidar_k) {
   const Pose T = T_camera_lidar_of(camera, T_vehicle_lidar) * T_lidar_t_lidar_k;
+  const Projector pixel_of(camera.model);
   Appearance result{&camera, 0, Box2d::around_nothing()};
   for (const Eigen::Vector3f& point : points) {
-    const auto pixel = project(camera.model, T * point.cast<double>());
+    const auto pixel = pixel_of(T * point.cast<double>());
     if (!pixel) continue;
     result.box.extend(pixel->x(), pixel->y());
     ++result.num_points;
@@ -93,11 +94,11 @@ AllSights sights_of(std::size_t object, const std::vector<ImageResult>& group, d
   for (const ImageResult& result : group) {
     if (result.objects.size() <= object) continue;
     const ObjectOnPicture& sight = result.objects[object];
+    sights.num_followed += sight.num_followed;
     if (sight.seen.empty()) continue;
     ImageView view = sight.view;
     view.share /= dt;
     sights.image.add(view, sight.seen);
-    sights.num_followed += sight.num_followed;
     sights.starts.insert(sights.starts.end(), sight.starts.begin(), sight.starts.end());
     if (sight.alone && (!sights.alone || sight.alone->num_inliers > sights.alone->num_inliers))
       sights.alone = sight.alone;
@@ -112,9 +113,10 @@ MotionStatus status_of(const MotionAnswer& answer, int num_found, const Config& 
                                                              : MotionStatus::no_consensus;
 }
 
-// @param dt s since the object's own sight.
+// @param dt s, in which the answer's motion goes on. @param until_image s since the object's own
+// sight: less, if the image comes no later than that.
 ObjectMotion make_motion(const MotionAnswer& answer, const ScanObject& object,
-                         const Pose& T_lidar_t_lidar_k, double dt) {
+                         const Pose& T_lidar_t_lidar_k, double dt, double until_image) {
   const MotionFit& told = answer.moves ? answer.moving : answer.parked;
   ObjectMotion motion;
   motion.class_name = object.class_name;
@@ -122,10 +124,14 @@ ObjectMotion make_motion(const MotionAnswer& answer, const ScanObject& object,
   motion.centroid_lidar_k = object.centroid;
   motion.num_inliers = told.num_inliers;
   motion.rmse_px = told.rmse_px;
-  if (answer.moves) motion.T_mov = motion_pose(answer.moving.mean, object.centroid);
+  if (answer.moves) {
+    motion.T_mov = motion_pose(answer.moving.mean, object.centroid);
+    motion.rate_lidar_k = log_se3(motion.T_mov) / dt;
+    if (until_image < dt) motion.T_mov = exp_se3(Twist(motion.rate_lidar_k * until_image));
+    motion.velocity_lidar_k = answer.moving.mean.tail<3>() / dt;
+    motion.yaw_rate = answer.moving.mean[2] / dt;
+  }
   motion.T_lidar_t_lidar_k = T_lidar_t_lidar_k * motion.T_mov;
-  motion.velocity_lidar_k = (motion.T_mov * object.centroid - object.centroid) / dt;
-  motion.yaw_rate = answer.moves ? answer.moving.mean[2] / dt : 0;
   const Eigen::Matrix3d R = T_lidar_t_lidar_k.linear();
   if (answer.is_seen || answer.moves)
     motion.position_covariance = R * told.covariance.bottomRightCorner<3, 3>() * R.transpose();
@@ -167,7 +173,8 @@ std::vector<ObjectMotion> estimate_motions(const std::vector<ImageResult>& group
     const ScanObject& object = objects.object(i);
     ObjectTrack& track = store.tracks[objects.track_of[i]];
     // An image may come before the object's own sight.
-    const double dt = std::max(kLeast_s, seconds_between(track.stamp, newest.instant));
+    const double until_image = seconds_between(track.stamp, newest.instant);
+    const double dt = std::max(kLeast_s, until_image);
     const AllSights sights = sights_of(i, group, dt);
     const MotionQuestion question{shifted(track.stamp, dt), newest.ego.T_to_from,
                                   newest.ego.covariance,    velocity,
@@ -176,7 +183,7 @@ std::vector<ObjectMotion> estimate_motions(const std::vector<ImageResult>& group
     const MotionAnswer answer = answer_for(track, sights, question, config);
     if (!track.settled) note_answer(track, answer, config.object_tracks.noise);
     ObjectMotion& motion = motions[i];
-    motion = make_motion(answer, object, newest.ego.T_to_from, dt);
+    motion = make_motion(answer, object, newest.ego.T_to_from, dt, until_image);
     motion.num_tracked = answer.num_found;
     motion.status = status_of(answer, motion.num_tracked, config);
     motion.track_id = track.id;

@@ -25,8 +25,7 @@ std::vector<int> points_of(const ObjectMotion& object, const Pose& T_next_k,
 
 ScanMotion motion_of_next(const PreparedScan& next, const ScanMotion& of_key,
                           const LidarScan& key_scan, const SeenSpace& seen_k) {
-  const double share = seconds_between(key_scan.stamp, next.scan.stamp) /
-                       seconds_between(key_scan.stamp, of_key.stamp);
+  const double dt = seconds_between(key_scan.stamp, next.scan.stamp);
   ScanMotion motion;
   motion.stamp = of_key.stamp;
   motion.cameras = of_key.cameras;
@@ -34,7 +33,7 @@ ScanMotion motion_of_next(const PreparedScan& next, const ScanMotion& of_key,
   std::vector<int> owner(next.scan.size(), kNobody);
   for (const ObjectMotion& object : of_key.objects) {
     if (!moves(object) || object.points.empty()) continue;
-    const Pose T_next_k = next.T_scan_before * exp_se3(Twist(log_se3(object.T_mov) * share));
+    const Pose T_next_k = next.T_scan_before * exp_se3(Twist(object.rate_lidar_k * dt));
     ObjectMotion back = object;
     back.T_lidar_t_lidar_k = object.T_lidar_t_lidar_k * T_next_k.inverse();
     back.points = points_of(object, T_next_k, key_scan, next);

@@ -170,6 +170,8 @@ struct ObjectMotion {
   MotionStatus status = MotionStatus::too_few_points;
   Pose T_lidar_t_lidar_k = Pose::Identity();  ///< ego- and object motion together (eq. 5, T_D)
   Pose T_mov = Pose::Identity();  ///< object motion alone, in the lidar frame at k (eq. 3)
+  /// The same per second, as a twist about the lidar (se3.h).
+  Eigen::Matrix<double, 6, 1> rate_lidar_k = Eigen::Matrix<double, 6, 1>::Zero();
   Eigen::Vector3d centroid_lidar_k = Eigen::Vector3d::Zero();  ///< of its points
   Eigen::Vector3d velocity_lidar_k = Eigen::Vector3d::Zero();  ///< of the centroid over ground, m/s
   double yaw_rate = 0;                                         ///< rad/s about lidar +Z

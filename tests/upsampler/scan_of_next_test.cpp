@@ -30,12 +30,14 @@ class NextScanView : public ::testing::Test {
   }
 
   void SetUp() override {
-    of_key_.stamp = shifted(key_.scan.stamp, 0.05);
+    // The camera's stamps are 12 ms late: all is told of an instant before.
+    of_key_.stamp = shifted(key_.scan.stamp, 0.062);
     of_key_.T_lidar_t_lidar_k = driven(0.4, 0, 0).inverse();
     ObjectMotion van;
     van.track_id = 7;
     van.status = MotionStatus::moving;
     van.T_mov = Eigen::Translation3d(0.5, 0, 0) * Pose::Identity();
+    van.rate_lidar_k = log_se3(van.T_mov) / 0.05;
     van.T_lidar_t_lidar_k = of_key_.T_lidar_t_lidar_k * van.T_mov;
     for (int i = 0; i < static_cast<int>(key_.scan.size()); ++i)
       if (key_.surface[i] == kVanBlock) van.points.push_back(i);
