@@ -66,12 +66,22 @@ void take_up_hidden(PreparedScan& scan, TrackStore& store, std::vector<int>& tra
   for (std::size_t i = 0; i < store.tracks.size(); ++i) {
     ObjectTrack& track = store.tracks[i];
     if (is_seen[i] || !is_mover(track, options)) continue;
-    const TrackState now = predicted(track.latest, scan.scan.stamp, options.noise);
-    std::vector<Eigen::Vector3f> places = points_by(track, now, scan.T_rest_lidar);
-    const bool hides = is_hidden(*scan.seen, places) && is_known_within(now, 0.5 * track.length);
+    TrackState now = predicted(track.latest, scan.scan.stamp, options.noise);
+    const auto shown = [&] {
+      return is_known_within(now, kReach_m)
+                 ? points_near(scan, points_by(track, now, scan.T_rest_lidar),
+                               [&](int j) { return !is_taken[j]; })
+                 : std::vector<int>{};
+    };
+    const bool hides = is_hidden(*scan.seen, points_by(track, now, scan.T_rest_lidar)) &&
+                       is_known_within(now, 0.5 * track.length);
     ScanObject object;
-    if (is_known_within(now, kReach_m))
-      object.points = points_near(scan, std::move(places), [&](int j) { return !is_taken[j]; });
+    object.points = shown();
+    if (scan.is_sweep && !object.points.empty()) {  // where it was when the sweep met it
+      object.time_s = mean_time(scan.scan.time_s, object.points);
+      now = predicted(track.latest, shifted(scan.scan.stamp, object.time_s), options.noise);
+      object.points = shown();
+    }
     if (object.points.empty() && !hides) continue;
     object.class_name = track.class_name;
     object.external_id = track.external_id;

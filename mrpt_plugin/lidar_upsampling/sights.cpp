@@ -19,10 +19,10 @@ namespace {
 
 // What is to be followed of an object; its points lie on the anchor where it was by then.
 FollowedObject followed_object(const ScanObject& object, const ObjectTrack& track,
-                               const Eigen::Matrix3d& R_rest_lidar_k) {
+                               const Eigen::Matrix3d& R_rest_lidar_k, const MotionNoise& noise) {
   FollowedObject followed{object.points, object.centroid, object.time_s, Twist::Zero()};
   if (track.expected_log_odds() <= 0) return followed;
-  const TrackState state = track.expected_at(track.stamp, {});
+  const TrackState state = track.expected_at(track.stamp, noise);
   const Eigen::Vector2d velocity = level_axes(R_rest_lidar_k).transpose() * state.velocity();
   followed.rate[2] = state.mean[5];
   // About the object's centroid, as a twist about the lidar.
@@ -98,8 +98,9 @@ void start_view(CameraView& view, const std::shared_ptr<const Picture>& anchor,
                        [&] { cv::cornerMinEigenVal(anchor->image.gray, texture, 5); });
   view.objects.clear();
   for (std::size_t i = 0; i < objects.track_of.size(); ++i)
-    view.objects.push_back(
-        followed_object(objects.object(i), objects.track(i), objects.key.T_rest_lidar.linear()));
+    view.objects.push_back(followed_object(objects.object(i), objects.track(i),
+                                           objects.key.T_rest_lidar.linear(),
+                                           config.object_tracks.noise));
   view.anchor_dt = seconds_between(scan.stamp, anchor->instant);
   if (std::abs(view.anchor_dt) * 1e3 <= config.timing.pair_tolerance_ms) view.anchor_dt = 0;
   view.points = {};
@@ -146,7 +147,7 @@ void note_sights(std::vector<ObjectOnPicture>& sights, const CameraView& view,
     const auto pairs = correspondences_of(view.points, static_cast<int>(i));
     sight.seen = observe(pairs, view.camera.model);
     weigh_by_texture(sight.seen, pairs, config.object_tracks.points.sigma_px);
-    const double until_anchor = view.anchor_dt == 0 ? 0 : view.anchor_dt - object.time_s;
+    const double until_anchor = view.anchor_dt - object.time_s;
     sight.view = {T_camera_lidar_k, dt - object.time_s - until_anchor,
                   exp_se3(Twist(object.rate * until_anchor)) * object.centroid - object.centroid};
     if (config.object_motion.world_tracks &&

@@ -58,7 +58,7 @@ Fitted search_start(const ObjectFit& problem) {
   constexpr double kCell = 0.5;
   const int reach = static_cast<int>(problem.options.search_m / kCell);
   const int stride = std::max(1, static_cast<int>(problem.points.size()) / 60);
-  Fitted best;
+  Fitted best{problem.T_level};
   for (int ix = -reach; ix <= reach; ++ix) {
     for (int iy = -reach; iy <= reach; ++iy) {
       const Pose start = shifted_by(problem.T_level, ix * kCell, iy * kCell);
@@ -71,7 +71,7 @@ Fitted search_start(const ObjectFit& problem) {
 
 /// @param stop as converge has it.
 Fitted best_fit(const ObjectFit& problem, const std::vector<Pose>& guesses, double stop) {
-  Fitted best;
+  Fitted best{guesses.front()};
   for (const Pose& guess : guesses) {
     if (&guess != &guesses.front() && guess.isApprox(guesses.front(), 1e-9)) continue;
     const Fitted fitted = converge(problem, guess, stop);

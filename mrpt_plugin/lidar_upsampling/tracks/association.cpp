@@ -36,7 +36,9 @@ class Shape {
     if (track.latest_log_odds > 0)
       sigma_m_ = std::sqrt(0.5 * now.covariance.topLeftCorner<2, 2>().trace());
     else
-      now.mean.head<3>().setZero();
+      now.mean.segment<6>(0).setZero();
+    const Eigen::Vector3d velocity(now.mean[3], now.mean[4], 0);
+    velocity_ = (scan.T_rest_lidar.linear().transpose() * velocity).cast<float>();
     places_ = evenly_thinned(points_by(track, now, scan.T_rest_lidar), kMostPlaces);
     for (const Eigen::Vector3f& place : places_) bounds_.extend(place);
   }
@@ -44,14 +46,15 @@ class Shape {
   /// Density (1/m^2) of an object that is a part of it: anywhere on it.
   [[nodiscard]] double density_of_part(const ScanObject& object, const LidarScan& scan) const {
     const double sigma = std::hypot(kReach_m, sigma_m_);
+    const Eigen::Vector3f step = velocity_ * static_cast<float>(object.time_s);
     const Eigen::Vector2d extent = bounds_.sizes().head<2>().cast<double>().array() + 2.5 * sigma;
-    if (bounds_.squaredExteriorDistance(object.centroid.cast<float>()) > 9 * sigma * sigma)
+    if (bounds_.squaredExteriorDistance(object.centroid.cast<float>() - step) > 9 * sigma * sigma)
       return 0;
     const std::size_t stride = 1 + object.points.size() / kAsked;
     double sum_sq = 0;
     int count = 0;
     for (std::size_t i = 0; i < object.points.size(); i += stride, ++count)
-      sum_sq += sq_distance(scan.points[object.points[i]]);
+      sum_sq += sq_distance(scan.points[object.points[i]] - step);
     return std::exp(-0.5 * sum_sq / count / (sigma * sigma)) / extent.prod();
   }
 
@@ -66,6 +69,7 @@ class Shape {
   }
 
   double sigma_m_ = 0;
+  Eigen::Vector3f velocity_;  ///< m/s, lidar frame
   std::vector<Eigen::Vector3f> places_;
   Eigen::AlignedBox3f bounds_;
 };

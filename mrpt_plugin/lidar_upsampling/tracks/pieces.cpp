@@ -62,7 +62,8 @@ double gap_between(const ScanObject& object, const std::vector<Eigen::Vector3f>&
 double piece_density(const ScanObject& object, const ObjectTrack& track, const TrackedScan& scan,
                      const TrackOptions& options) {
   constexpr double kGap_m = 0.7;  // between pieces
-  const TrackState now = predicted(track.latest, scan.scan.stamp, options.noise);
+  const Stamp instant = shifted(scan.scan.stamp, object.time_s);
+  const TrackState now = predicted(track.latest, instant, options.noise);
   if (are_parted(track, object) || is_far(track, now, object, scan.T_rest_lidar)) return 0;
   const double gap =
       gap_between(object, points_by(track, now, scan.T_rest_lidar), scan.scan) / kGap_m;
@@ -80,7 +81,8 @@ void join_pieces(const TrackStore& store, const TrackedScan& scan, const TrackOp
   for (std::size_t i = 0; i < known.size(); ++i) {
     if (known[i] < 0) continue;
     const ObjectTrack& track = store.tracks[known[i]];
-    const TrackState now = predicted(track.latest, scan.scan.stamp, options.noise);
+    const Stamp instant = shifted(scan.scan.stamp, objects[i].time_s);
+    const TrackState now = predicted(track.latest, instant, options.noise);
     if (!is_predictable(track, now, options)) continue;
     std::optional<PointIndex> places;
     for (std::size_t j = 0; j < objects.size(); ++j) {
