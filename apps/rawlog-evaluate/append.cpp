@@ -10,7 +10,8 @@ namespace lidar_upsampling {
 namespace {
 
 void add_named(const LogResult& log, ScanResults& scans) {
-  const std::string stem = std::filesystem::path(log.reference).stem().string();
+  const std::string& name = log.reference.empty() ? log.input : log.reference;
+  const std::string stem = std::filesystem::path(name).stem().string();
   log.scans.for_each([&](ScanResult& scan) {
     for (ObjectResult& object : scan.objects) object.object.id = stem + "/" + object.object.id;
     scans.add(scan);
@@ -20,7 +21,7 @@ void add_named(const LogResult& log, ScanResults& scans) {
 }  // namespace
 
 void append(LogResult& total, LogResult log) {
-  if (total.scans.empty()) {
+  if (total.input.empty()) {
     total = std::move(log);
     return;
   }

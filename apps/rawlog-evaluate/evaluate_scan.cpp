@@ -90,8 +90,12 @@ void measure_moving_points(const RowSources& sources, ScanResult& result) {
 
 /// Flow of every point within range, and how far the static scene goes astray: with true boxes
 /// only.
-void measure_flow(const RowSources& sources, double max_range, ScanResult& result) {
+/// @param left_out points of objects that are not judged.
+void measure_flow(const RowSources& sources, double max_range, const std::vector<int>& left_out,
+                  ScanResult& result) {
   const LidarScan& key = sources.scans.key;
+  std::vector<bool> counts(key.size(), true);
+  for (const int i : left_out) counts[i] = false;
   std::vector<const ObjectResult*> owner(key.size(), nullptr);
   for (const ObjectResult& object : result.objects)
     for (const int i : object.object.points) owner[i] = &object;
@@ -101,7 +105,7 @@ void measure_flow(const RowSources& sources, double max_range, ScanResult& resul
     int num_static = 0;
     for (int i = 0; i < static_cast<int>(key.size()); ++i) {
       const Eigen::Vector3d point = key.points[i].cast<double>();
-      if (point.head<2>().norm() > max_range) continue;
+      if (!counts[i] || point.head<2>().norm() > max_range) continue;
       const auto moved = moved_point(row, i, sources, owner[i]);
       if (!moved) continue;
       PointFlow flow;
@@ -137,7 +141,8 @@ ScanResult evaluate_scan(const ScanSet& scans, InstantReference reference,
   result.points_told = !sources.ours.matches.empty();
   result.objects = evaluate_objects(std::move(reference.objects), sources, cameras, result.dt);
   measure_moving_points(sources, result);
-  if (reference.by_truth) measure_flow(sources, options.max_range_m, result);
+  if (reference.by_truth)
+    measure_flow(sources, options.max_range_m, reference.other_points, result);
   const PerRow<Points> clouds = whole_clouds(sources, result.objects);
   if (options.chamfer) measure_clouds(clouds, scans.reference, cameras, result);
   measure_samples(clouds, scans, cameras, options, result);

@@ -209,8 +209,15 @@ std::optional<InstantReference> reference_by_truth(const Truth& truth,
     ObjectReference& placed = reference.objects.back();
     placed.motion = {object.motion.centroid_k, *motion, 0};
     placed.moving = box->moves_at(request.stamp);
+    if (!box->velocity_at(request.stamp)) placed.excluded = "velocity_unknown";
     placed.speed = velocity_error(placed.motion, *T_ego, seconds_between(key.stamp, request.stamp));
   }
+  std::vector<bool> is_judged(request.objects.size(), false);
+  for (const int i : reference.indices) is_judged[i] = true;
+  for (std::size_t i = 0; i < request.objects.size(); ++i)
+    if (!is_judged[i])
+      reference.other_points.insert(reference.other_points.end(), request.objects[i].points.begin(),
+                                    request.objects[i].points.end());
   reference.scan = brought_to(truth, nearest, request.stamp);
   return reference;
 }

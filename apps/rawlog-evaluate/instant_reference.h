@@ -18,6 +18,7 @@ struct InstantReference {
   Pose T_ego = Pose::Identity();         ///< T_lidar_t_lidar_k
   std::vector<ObjectReference> objects;  ///< in view and within range
   std::vector<int> indices;              ///< of each among the key scan's
+  std::vector<int> other_points;         ///< of the key scan's other objects, which may move, too
   bool interpolated = false;
   bool by_truth = false;
 };

@@ -36,8 +36,9 @@ Eigen::Vector3d true_velocity(const LabelledBox& box, const ReportedObject* row,
                               const LabelledInstant& instant) {
   if (row == nullptr) return box.velocity;
   const Eigen::Vector3d centre_k = box.T_box_lidar.inverse().translation();
-  const Eigen::Vector3d arm = instant.T_lidar_k_lidar_t.linear().transpose() *
-                              (at_key(row->middle, *row, instant) - centre_k);
+  const Eigen::AngleAxisd halfway(0.5 * instant.dt * box.yaw_rate, Eigen::Vector3d::UnitZ());
+  const Eigen::Vector3d arm = halfway * (instant.T_lidar_k_lidar_t.linear().transpose() *
+                                         (at_key(row->middle, *row, instant) - centre_k));
   return box.velocity + box.yaw_rate * Eigen::Vector3d::UnitZ().cross(arm);
 }
 
@@ -69,6 +70,7 @@ void judge_instant(const LabelledInstant& instant, const RowsAt& rows,
   const auto [first, last] = rows.equal_range(instant.told_at);
   std::set<const ReportedObject*> claimed;
   for (const LabelledBox& box : instant.boxes) {
+    const bool stands = box.velocity_known && box.speed_mps < options.parked_mps;
     const ReportedObject* mine = nullptr;
     std::pair<bool, int> best;  // a post beside a walker is not the walker
     for (auto it = first; it != last; ++it) {
@@ -76,12 +78,13 @@ void judge_instant(const LabelledInstant& instant, const RowsAt& rows,
       if (!row.in_view && !box.counts) continue;
       const Eigen::Vector3d place = at_key(row.position, row, instant);
       if (!holds(box, place, options.grown_m)) continue;
-      claimed.insert(&row);
+      if (!stands) claimed.insert(&row);
       const std::pair<bool, int> rank(holds(box, place, 0), row.points);
       if (mine != nullptr && rank <= best) continue;
       mine = &row;
       best = rank;
     }
+    if (mine != nullptr) claimed.insert(mine);
     judge_box(box, mine, instant, options, score);
     follow(box, mine, tracks, score);
   }
@@ -126,16 +129,20 @@ std::optional<LabelledBox> labelled_box(const Truth& truth, const TrueObject& ob
                                         const LidarScan& key, Stamp stamp,
                                         const Pose& T_world_lidar_t) {
   const auto T_box_lidar = box_in_scan(truth, object, key);
-  const auto velocity = object.velocity_at(stamp);
-  if (!T_box_lidar || !velocity) return {};
+  if (!T_box_lidar) return {};
+  const Stamp halfway = shifted(key.stamp, 0.5 * seconds_between(key.stamp, stamp));
+  const auto velocity = object.velocity_at(halfway);
   LabelledBox box;
   box.id = object.id;
   box.class_name = object.class_name;
   box.T_box_lidar = *T_box_lidar;
   box.size = object.size;
-  box.speed_mps = velocity->norm();
-  box.velocity = T_world_lidar_t.linear().transpose() * *velocity;
-  box.yaw_rate = object.yaw_rate_at(stamp);
+  box.velocity_known = velocity.has_value();
+  if (velocity) {
+    box.speed_mps = velocity->norm();
+    box.velocity = T_world_lidar_t.linear().transpose() * *velocity;
+    box.yaw_rate = object.yaw_rate_at(halfway);
+  }
   box.range_m = T_box_lidar->inverse().translation().head<2>().norm();
   return box;
 }
@@ -182,7 +189,7 @@ std::optional<LabelledInstant> labelled_instant(const Truth& truth, const LidarS
     const Pose T_world_box =
         at_t ? at_t->T_world_vehicle : T_world_lidar_k * box->T_box_lidar.inverse();
     box->counts =
-        box->range_m <= options.max_range_m &&
+        box->velocity_known && box->range_m <= options.max_range_m &&
         (options.all_around ||
          box_in_view(vehicle_t->T_world_vehicle.inverse() * T_world_box, box->size, cameras)) &&
         is_hit(*box, key, options.min_points);

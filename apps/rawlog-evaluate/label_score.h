@@ -29,12 +29,15 @@ struct LabelledBox {
   std::string id, class_name;
   Pose T_box_lidar = Pose::Identity();             ///< lidar frame at the key scan
   Eigen::Vector3d size = Eigen::Vector3d::Zero();  ///< m
-  /// Over ground, at the instant, lidar frame there.
+  /// Over ground, halfway between the key scan and the instant, as which motions since the key scan
+  /// are told; lidar frame at the instant.
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();
+  bool velocity_known = true;  ///< else it does not count: too few labels tell of it
   double yaw_rate = 0;  ///< rad/s, where it is told: what turns is nowhere as fast as its centre
   double speed_mps = 0;
   double range_m = 0;  ///< of its centre, at the key scan
-  bool counts = true;  ///< in view, within range and hit by the scan; if not, it still takes rows
+  bool counts = true;  ///< its velocity is known, it is in view, within range and hit by the scan;
+                       ///< if not, it still takes rows
 };
 
 /// A virtual scan that labels tell of.
@@ -81,8 +84,9 @@ struct LabelScore {
 
 /// @brief Judges the rows of a report. A row belongs to the box that holds it at the key scan,
 /// taken back there by its own velocity, so that a wrong velocity does not hide it; of several the
-/// one with most points counts, and one beside the box only where none lies in it. Rows out of view
-/// are there for boxes that count: a picture may show of an object what the scan does not.
+/// one with most points counts, and one beside the box only where none lies in it. The others may
+/// move as well if the object does; of one that is parked they move falsely. Rows out of view are
+/// there for boxes that count: a picture may show of an object what the scan does not.
 [[nodiscard]] LabelScore score_labels(const std::vector<LabelledInstant>& instants,
                                       const std::vector<ReportedObject>& told,
                                       const LabelScoreOptions& options);

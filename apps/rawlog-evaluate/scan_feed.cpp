@@ -81,13 +81,15 @@ const LidarScan* ReferenceScans::scan_at(Stamp stamp) {
   const auto known = std::find_if(scans_.begin(), scans_.end(),
                                   [stamp](const LidarScan& scan) { return scan.stamp == stamp; });
   if (known != scans_.end()) return &*known;
+  if (!scans_.empty() && scans_.back().stamp > stamp) return nullptr;  // none that can be used
   asked_ = stamp;
   while (auto scan = feed_.next()) {
     scans_.push_back(straight_.straight(std::move(*scan)));
     // Pointers to the others stay good.
     if (scans_.size() > 3) scans_.pop_front();
-    if (scans_.back().stamp == stamp) return &scans_.back();
+    if (scans_.back().stamp >= stamp) break;
   }
+  if (!scans_.empty() && scans_.back().stamp == stamp) return &scans_.back();
   return nullptr;
 }
 

@@ -19,7 +19,7 @@ struct TrueObject {
   Trajectory T_world_object;
   std::map<Stamp, bool> moving;
   std::map<Stamp, Eigen::Vector3d> velocity;  ///< m/s in the world, at the labels that tell one
-  std::map<Stamp, double> yaw_rate;           ///< rad/s, likewise; people's labels tell none
+  std::map<Stamp, double> yaw_rate;           ///< rad/s, likewise
 
   /// At the nearest stamp known.
   [[nodiscard]] bool moves_at(Stamp stamp) const;

@@ -45,5 +45,17 @@ TEST(Append, objects_of_several_logs_are_told_apart_by_their_logs_names) {
   EXPECT_EQ(total.notes.back(), "dense.rawlog: seen");
 }
 
+TEST(Append, logs_that_labels_alone_judge_count_together) {
+  LogResult total;
+  for (const std::string name : {"a.rawlog", "b.rawlog"}) {
+    LogResult log;
+    log.input = name;
+    log.labels[Row::ours].emplace().num_images = 20;
+    append(total, std::move(log));
+  }
+  EXPECT_EQ(total.num_logs, 2);
+  EXPECT_EQ(total.labels[Row::ours]->num_images, 40);
+}
+
 }  // namespace
 }  // namespace lidar_upsampling

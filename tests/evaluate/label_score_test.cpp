@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "evaluate/stamps.h"
 #include "label_table.h"
 
 namespace lidar_upsampling {
@@ -63,7 +64,9 @@ TEST(LabelScore, a_velocity_far_off_does_not_hide_the_row_from_its_label) {
 TEST(LabelScore, the_rear_of_a_car_that_turns_swings_out) {
   LabelledInstant instant = car_at(6);
   instant.boxes[0].yaw_rate = 1;
-  const LabelScore score = score_of(instant, {told({18, 0, 0}, {6, -2, 0})});
+  // Halfway it has turned by 0.05 rad.
+  const Eigen::Vector3d swing(2 * std::sin(0.05), -2 * std::cos(0.05), 0);
+  const LabelScore score = score_of(instant, {told({18, 0, 0}, Eigen::Vector3d(6, 0, 0) + swing)});
   ASSERT_EQ(score.movers.size(), 1U);
   EXPECT_NEAR(score.movers[0].error_mps, 0, 1e-9);
 }
@@ -84,6 +87,57 @@ TEST(LabelScore, a_parked_car_counts_where_a_row_tells_of_it_and_shifts_where_it
   const LabelScore moves = score_of(car_at(0.1), {told({20, 0, 0}, {2, 0, 0})});
   ASSERT_EQ(moves.parked.size(), 1U);
   EXPECT_NEAR(moves.parked[0].shift_m, 0.2, 1e-9);
+}
+
+TEST(LabelScore, a_second_row_that_lets_a_parked_car_move_is_a_false_mover) {
+  ReportedObject piece = told({19, 0, 0}, {3, 0, 0});
+  piece.points = 5;
+  const ReportedObject car = told({20, 0, 0}, {0, 0, 0}, false);
+  EXPECT_EQ(score_of(car_at(0.1), {car, piece}).false_shifts_m.size(), 1U);
+  EXPECT_TRUE(score_of(car_at(14), {car, piece}).false_shifts_m.empty());
+}
+
+/// A car 20 m ahead that brakes from 10 m/s by 4 m/s^2; the vehicle stands.
+Truth braking(bool with_velocity) {
+  Truth truth;
+  truth.T_world_vehicle = Trajectory(InterpolationLimits{0.25, 0});
+  TrueObject car;
+  car.id = "3";
+  car.size = {4, 2, 1.5};
+  car.T_world_object = Trajectory(InterpolationLimits{0.25, 0});
+  for (const double t : {0., 0.1, 0.2, 0.3}) {
+    truth.T_world_vehicle.add({at(t), Pose::Identity()});
+    car.T_world_object.add({at(t), Pose(Eigen::Translation3d(20 + 10 * t - 2 * t * t, 0, 0))});
+    if (with_velocity) car.velocity[at(t)] = {10 - 4 * t, 0, 0};
+  }
+  truth.objects.push_back(car);
+  return truth;
+}
+
+LabelledInstant instant_of(const Truth& truth, double t) {
+  LidarScan key;
+  key.stamp = at(0);
+  key.points = {{20, 0, 0}};
+  LabelledInstant instant = *labelled_instant(truth, key, at(t), {}, {});
+  instant.told_at = 7;
+  return instant;
+}
+
+TEST(LabelScore, of_what_brakes_the_way_that_it_has_gone_is_asked_for) {
+  const double t = 0.2, way = 10 * t - 2 * t * t;
+  ReportedObject row = told({20, 0, 0}, {way / t, 0, 0});
+  row.position = row.middle = {20 + way, 0, 0};
+  const LabelScore score = score_of(instant_of(braking(true), t), {row});
+  ASSERT_EQ(score.movers.size(), 1U);
+  EXPECT_NEAR(score.movers[0].error_m, 0, 1e-9);
+}
+
+TEST(LabelScore, a_label_of_unknown_velocity_takes_its_rows_and_does_not_count) {
+  const LabelScore score =
+      score_of(instant_of(braking(false), kHorizon_s), {told({20, 0, 0}, {9, 0, 0})});
+  EXPECT_TRUE(score.movers.empty());
+  EXPECT_TRUE(score.parked.empty());
+  EXPECT_TRUE(score.false_shifts_m.empty());
 }
 
 TEST(LabelScore, what_creeps_is_neither_a_mover_nor_parked_but_no_false_mover) {
@@ -125,7 +179,7 @@ TEST(LabelScore, of_several_rows_in_a_label_the_one_with_most_points_counts) {
 }
 
 TEST(LabelScore, a_post_beside_a_label_does_not_tell_of_it_where_a_row_in_it_does) {
-  ReportedObject walker = told({20, 0, 0}, {14, 0, 0}), post = told({20, 1.3, 0}, {}, false);
+  ReportedObject walker = told({20, 0, 0}, {14, 0, 0}), post = told({20, 1.3, 0}, {0, 0, 0}, false);
   walker.points = 5;
   EXPECT_NEAR(score_of(car_at(14), {post, walker}).movers[0].error_m, 0, 1e-9);
   EXPECT_NEAR(score_of(car_at(14), {post}).movers[0].error_m, 1.4, 1e-9);
