@@ -50,7 +50,9 @@ bool StampWatch::note(const mrpt::obs::CObservation& observation) {
   constexpr double kMostAhead_s = 60;
   const Stamp stamp = observation.timestamp;
   if (stamp == INVALID_TIMESTAMP) return true;
-  const auto [last, is_first] = last_.emplace(observation.sensorLabel, stamp);
+  const auto [last, is_first] = last_.emplace(
+      std::pair(observation.sensorLabel, std::string(observation.GetRuntimeClass()->className)),
+      stamp);
   if (is_first) return true;
   const double step_s = seconds_between(last->second, stamp);
   last->second = stamp;

@@ -7,6 +7,7 @@
 #include <map>
 #include <set>
 #include <string>
+#include <utility>
 
 #include "densify.h"
 
@@ -17,12 +18,12 @@ class StampWatch {
  public:
   explicit StampWatch(DensifyReport& report) : report_(report) {}
 
-  /// @return whether it is not the last one of its label for the second time.
+  /// @return whether it is not the last one of its label and kind for the second time.
   bool note(const mrpt::obs::CObservation& observation);
 
  private:
   DensifyReport& report_;
-  std::map<std::string, Stamp> last_;  ///< by label
+  std::map<std::pair<std::string, std::string>, Stamp> last_;  ///< by label and class
 };
 
 /// @brief Warns of settings and boxes for sensors that the log does not have.

@@ -46,10 +46,11 @@ std::string status_lines(const std::map<std::string, std::size_t>& object_status
       {"moving", "measured on the picture to move"},
       {"stationary", "measured on the picture to stand"},
       {"predicted", "moved on by their tracks, as the picture tells nothing"},
-      {"too_few_points", "left standing, too small or too plain to be followed on the picture"},
+      {"too_few_points",
+       "left standing: out of every camera's view, or too small or plain to be followed"},
       {"no_consensus", "left standing, as their points agree on no motion"}};
   std::ostringstream text;
-  if (!object_status.empty()) text << "objects on images, each anew on every one\n";
+  if (!object_status.empty()) text << "objects, each anew at every image\n";
   for (const auto& [status, count] : object_status)
     text << "  " << std::left << std::setw(16) << status << std::setw(8) << count
          << meanings.at(status) << '\n';

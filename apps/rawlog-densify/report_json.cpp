@@ -108,6 +108,8 @@ nlohmann::json head_json(const DensifyReport& report) {
       {"frames",
        {{"position_m", "LiDAR at the image"},
         {"velocity_m_s", "LiDAR at the image, over ground, of the middle of the box"},
+        {"box", "LiDAR at the image; pose of its centre: x y z qx qy qz qw"},
+        {"T_rest_lidar", "LiDAR at the image in the LiDAR at the first scan: x y z qx qy qz qw"},
         {"clusters_left_static", "LiDAR at the key scan"}}},
       {"objects", nlohmann::json::array()},
       {"objects_out_of_view", nlohmann::json::array()},

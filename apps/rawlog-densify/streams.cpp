@@ -72,8 +72,13 @@ void check_clocks(const LogIndex& index, const StreamInfo& lidar, const StreamIn
     throw std::runtime_error(index.path + ": '" + (lidar.stamps.empty() ? lidar : camera).label +
                              "' has no valid time stamps");
   const double period_s = std::max(1., lidar.median_period_s);
-  if (seconds_between(lidar.stamps.back(), camera.stamps.front()) > period_s ||
-      seconds_between(camera.stamps.back(), lidar.stamps.front()) > 0)
+  // A wrong stamp here and there is for the work to pass on.
+  const auto [lidar_first, lidar_last] =
+      std::minmax_element(lidar.stamps.begin(), lidar.stamps.end());
+  const auto [camera_first, camera_last] =
+      std::minmax_element(camera.stamps.begin(), camera.stamps.end());
+  if (seconds_between(*lidar_last, *camera_first) > period_s ||
+      seconds_between(*camera_last, *lidar_first) > 0)
     throw std::runtime_error(index.path + ": the clocks do not overlap: " + span_of(lidar) +
                              ", but " + span_of(camera) +
                              "; set the clocks right with rawlog-edit --remap-timestamps");
@@ -100,10 +105,16 @@ StreamSelection select_again(const LogIndex& index, const Config& config,
   StreamSelection selection;
   selection.lidar = select_lidar(index, config);
   selection.cameras = select_cameras(index, config, calibrated_elsewhere);
-  if (index.find(config.virtual_label(selection.lidar->label), StreamKind::lidar) != nullptr)
+  const std::string label = config.virtual_label(selection.lidar->label);
+  const bool is_camera = std::any_of(selection.cameras.begin(), selection.cameras.end(),
+                                     [&](const auto* camera) { return camera->label == label; });
+  if (is_camera || label == selection.lidar->label)
+    throw std::runtime_error(index.path + ": output_label = " + label +
+                             " is the label of a sensor that virtual scans are made of; choose "
+                             "another");
+  if (index.find(label, StreamKind::lidar) != nullptr)
     throw std::runtime_error(
-        index.path + ": it already holds virtual scans labelled '" +
-        config.virtual_label(selection.lidar->label) +
+        index.path + ": it already holds virtual scans labelled '" + label +
         "'; remove them with rawlog-decimate --keep-every 0, or choose another output_label");
   return selection;
 }

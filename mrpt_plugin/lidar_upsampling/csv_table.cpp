@@ -29,11 +29,20 @@ CsvTable::CsvTable(const std::string& path) : path_(path) {
   std::string line;
   if (!file || !std::getline(file, line))
     throw std::runtime_error(path + ": cannot be read, or is empty");
-  const auto names = comma_separated(line);
+  constexpr const char* kByteOrderMark = "\xEF\xBB\xBF";
+  if (line.rfind(kByteOrderMark, 0) == 0) line.erase(0, 3);
+  // An empty last cell counts, in the header as below it.
+  const auto cells_of = [](const std::string& row) {
+    std::vector<std::string> cells = comma_separated(row);
+    if (trimmed(row).back() == ',') cells.emplace_back();
+    return cells;
+  };
+  if (trimmed(line).empty()) throw std::runtime_error(path + ": its first line is empty");
+  const auto names = cells_of(line);
   for (std::size_t i = 0; i < names.size(); ++i) columns_[names[i]] = i;
   for (std::size_t number = 2; std::getline(file, line); ++number) {
     if (trimmed(line).empty()) continue;
-    rows_.push_back(comma_separated(line));
+    rows_.push_back(cells_of(line));
     lines_.push_back(number);
     if (rows_.back().size() != names.size())
       throw std::runtime_error(path + ", line " + std::to_string(number) + ": " +

@@ -45,6 +45,7 @@ void convert(const Options& options) {
     Progress progress("converting");
     importing::write_items(writer, std::move(items), std::ref(progress));
   }
+  writer.finish();
   if (labels) labels->commit();
   writer.commit();
   if (labels) {

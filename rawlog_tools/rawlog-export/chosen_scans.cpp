@@ -17,7 +17,7 @@ constexpr const char* kEnding = "_VIRTUAL";
 
 bool ends_as_virtual(const std::string& label) {
   const std::string ending = kEnding;
-  return label.size() > ending.size() &&
+  return label.size() >= ending.size() &&
          label.compare(label.size() - ending.size(), ending.size(), ending) == 0;
 }
 
@@ -41,21 +41,27 @@ const StreamInfo& stream_of(const LogIndex& index, const std::string& label) {
   return *found;
 }
 
-// The number of the chosen one among the stream's, none: all.
-std::optional<std::size_t> chosen_index(const StreamInfo& stream, const Choice& choice,
-                                        const std::string& path) {
+// One of the stream's scans, or all.
+struct Chosen {
+  std::optional<std::size_t> number;
+  std::optional<Stamp> stamp;
+
+  [[nodiscard]] bool holds(std::size_t of_scan, Stamp at) const {
+    return (!number || *number == of_scan) && (!stamp || *stamp == at);
+  }
+};
+
+Chosen chosen_of(const StreamInfo& stream, const Choice& choice, const std::string& path) {
   if (choice.index && *choice.index >= stream.count)
     throw std::runtime_error(path + ": --index " + std::to_string(*choice.index) + ", but '" +
                              stream.label + "' has scans 0 to " + std::to_string(stream.count - 1));
-  if (choice.stamp && stream.stamps.size() == stream.count) {
-    const auto nearest =
-        std::min_element(stream.stamps.begin(), stream.stamps.end(), [&](Stamp a, Stamp b) {
-          return std::abs(seconds_between(*choice.stamp, a)) <
-                 std::abs(seconds_between(*choice.stamp, b));
-        });
-    return nearest - stream.stamps.begin();
-  }
-  return choice.index;
+  if (!choice.stamp) return {choice.index, {}};
+  if (stream.stamps.empty())
+    throw std::runtime_error(path + ": no scan of '" + stream.label + "' has a time stamp");
+  return {{}, *std::min_element(stream.stamps.begin(), stream.stamps.end(), [&](Stamp a, Stamp b) {
+            return std::abs(seconds_between(*choice.stamp, a)) <
+                   std::abs(seconds_between(*choice.stamp, b));
+          })};
 }
 
 void for_each_observation(const RawlogEntry& entry,
@@ -74,7 +80,7 @@ ReadScans for_each_chosen_scan(const LogFile& log, const Choice& choice,
                                const std::function<void(const LidarScan&)>& use) {
   const LogIndex index = index_streams(log);
   const StreamInfo& stream = stream_of(index, choice.label);
-  const auto chosen = chosen_index(stream, choice, log.path);
+  const Chosen chosen = chosen_of(stream, choice, log.path);
   std::size_t number = 0;
   ReadScans read;
   UsableObservations usable(counted_in(read.unused));
@@ -82,7 +88,7 @@ ReadScans for_each_chosen_scan(const LogFile& log, const Choice& choice,
   while (const auto entry = reader.next()) {
     for_each_observation(*entry, [&](const mrpt::obs::CObservation::Ptr& observation) {
       if (observation->sensorLabel != stream.label || !is_lidar_scan(*observation)) return;
-      if (!chosen || number == *chosen) {
+      if (chosen.holds(number, observation->timestamp)) {
         if (const auto scan = usable.scan(*observation)) use(*scan), ++read.count;
       }
       ++number;

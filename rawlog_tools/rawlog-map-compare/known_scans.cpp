@@ -53,7 +53,7 @@ Trajectory registered(const LogFile& log) {
 
 bool is_virtual(const std::string& label) {
   const std::string ending = "_VIRTUAL";
-  return label.size() > ending.size() &&
+  return label.size() >= ending.size() &&
          label.compare(label.size() - ending.size(), ending.size(), ending) == 0;
 }
 

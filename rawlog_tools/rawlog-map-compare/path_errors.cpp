@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 #include <stdexcept>
+#include <string>
 
 #include "known_scans.h"
 #include "lidar_upsampling/compat/mrpt.h"
@@ -39,6 +40,7 @@ PathErrors errors_of_path(const std::string& path, const Trajectory& T_world_veh
   mrpt::maps::CSimpleMap map = map_in(path);
   PathErrors errors;
   std::optional<Pose> T_world_map;
+  int num_compared = 0;
   Eigen::Vector3d last_place = Eigen::Vector3d::Zero();
   for (std::size_t i = 0; i < map.size(); ++i) {
     const compat::Keyframe keyframe = compat::keyframe_of(map, i);
@@ -59,11 +61,16 @@ PathErrors errors_of_path(const std::string& path, const Trajectory& T_world_veh
         std::abs(std::remainder(yaw_of(estimate) - yaw_of(truth->T_world_vehicle), 2 * M_PI)) /
         kDegree;
     errors.mean_m += errors.last_m;
+    ++num_compared;
     errors.length_m += (place - last_place).norm();
     last_place = place;
   }
   if (errors.num_real == 0) throw std::runtime_error(path + ": holds no real scan");
-  errors.mean_m /= errors.num_real;
+  if (num_compared < errors.num_real)
+    throw std::runtime_error(
+        path + ": the reference tells the true places of " + std::to_string(num_compared) +
+        " of its " + std::to_string(errors.num_real) + " real scans; is it of another time?");
+  errors.mean_m /= num_compared;
   return errors;
 }
 

@@ -20,7 +20,8 @@ struct PathErrors {
 
 /// @brief How far a SLAM program's poses lie from the true ones.
 /// @param path a simplemap, as icp-slam and rbpf-slam write it.
-/// @throw std::runtime_error no such file, or no real scan in it.
+/// @throw std::runtime_error no such file, no real scan in it, or one that the true way
+/// does not reach.
 [[nodiscard]] PathErrors errors_of_path(const std::string& path, const Trajectory& T_world_vehicle);
 
 }  // namespace lidar_upsampling::maps

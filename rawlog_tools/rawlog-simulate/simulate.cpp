@@ -141,6 +141,8 @@ class Simulation {
   }
 
   SimulationSummary finish() {
+    log_.finish();
+    if (truth_) truth_->finish();
     objects_.commit();
     ego_.commit();
     boxes_.commit();

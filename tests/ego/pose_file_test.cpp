@@ -93,6 +93,13 @@ TEST_F(PoseFile, of_csv_is_read_by_its_columns_names) {
                    "1317046450.1,1,2,3,0,0,0.70710678,0.70710678\r\n"))));
 }
 
+TEST_F(PoseFile, of_csv_may_be_as_spreadsheets_write_it) {
+  expect_quarter_turn(
+      read(at(file("\xEF\xBB\xBFstamp , x, y, z, yaw, pitch, roll, note\n"
+                   "1317046450,0,0,0,0,0,0,\n"
+                   "1317046450.1,1,2,3,1.57079633,0,0,turned\n"))));
+}
+
 TEST_F(PoseFile, angles_of_csv_turn_about_z_then_y_then_x) {
   const auto samples = read(at(file("stamp,x,y,z,yaw,pitch,roll\n1,0,0,0,0.3,0.2,0.1\n")));
   const Eigen::Matrix3d expected = (Eigen::AngleAxisd(0.3, Eigen::Vector3d::UnitZ()) *

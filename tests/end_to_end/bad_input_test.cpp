@@ -127,9 +127,34 @@ TEST(BadInput, clocks_that_do_not_overlap_are_refused) {
   }
 }
 
+TEST(BadInput, one_wrong_stamp_is_no_reason_to_refuse_a_log) {
+  for (const double hour : {-3600., 3600.}) {
+    const TestFolder folder;
+    HandMadeLog log;
+    log.first_scan_delay_s = hour;
+    write_hand_made(folder / "in.rawlog", log);
+    const ToolResult result = run(command(folder));
+    EXPECT_EQ(result.status, 0) << result.text;
+    EXPECT_NE(result.text.find("the clock jumps"), std::string::npos) << result.text;
+  }
+}
+
+TEST(BadInput, a_scan_and_an_image_of_one_label_and_stamp_are_two) {
+  const TestFolder folder;
+  HandMadeLog log;
+  log.lidar_label = "CAM";
+  write_hand_made(folder / "in.rawlog", log);
+  const ToolResult result = run(command(folder));
+  EXPECT_EQ(result.status, 0) << result.text;
+  EXPECT_EQ(result.text.find("twice"), std::string::npos) << result.text;
+  EXPECT_EQ(with_label(observations_of(folder / "out.rawlog"), "CAM_VIRTUAL").size(), 6U);
+}
+
 TEST(BadInput, settings_that_cannot_be_read_are_named) {
   const TestFolder folder;
   write_hand_made(folder / "in.rawlog");
+  expect_refused(folder, {"output_label", "LIDAR", "sensor"}, "--set output_label=LIDAR");
+  expect_refused(folder, {"output_label", "CAM", "sensor"}, "--set output_label=CAM");
   expect_refused(folder, {"no_such_key"}, "--set no_such_key=1");
   expect_refused(folder, {"klt", "no_such_key"}, "--set klt.no_such_key=1");
   expect_refused(folder, {"window_px", "large"}, "--set klt.window_px=large");

@@ -23,6 +23,7 @@ struct HandMadeLog {
   int external_image = -1;   ///< the one that lies in a file
   std::string external_file = "no.png";
   std::string lidar_label = "LIDAR";
+  double first_scan_delay_s = 0;  ///< added to its stamp
 };
 
 inline Stamp hand_made_stamp(int image) {
@@ -77,6 +78,7 @@ inline void write_hand_made(const std::string& path, const HandMadeLog& log = {}
     if (i % 3 == 0) {
       LidarScan scan = wall_scan(i);
       scan.label = log.lidar_label;
+      if (i == 0) scan.stamp = shifted(scan.stamp, log.first_scan_delay_s);
       writer.write(*observation_from_scan(scan, Carrier::automatic));
     }
     if (i >= log.num_images) continue;

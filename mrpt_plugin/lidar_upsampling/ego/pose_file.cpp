@@ -2,6 +2,7 @@
 // Copyright (c) 2026, the lidar_upsampling authors
 #include "lidar_upsampling/ego/pose_file.h"
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <sstream>
@@ -180,7 +181,10 @@ std::vector<PoseSample> read_csv(const std::string& path) {
 PoseFileFormat format_of(const PoseFileOptions& options) {
   if (options.format != PoseFileFormat::automatic) return options.format;
   const Line first = read_lines(options.path).front();
-  if (first.words.front().find(',') != std::string::npos) return PoseFileFormat::csv;
+  const auto has_comma = [](const std::string& word) {
+    return word.find(',') != std::string::npos;
+  };
+  if (std::any_of(first.words.begin(), first.words.end(), has_comma)) return PoseFileFormat::csv;
   if (first.words.size() == 12) return PoseFileFormat::kitti;
   if (first.words.size() == 8) return PoseFileFormat::tum;
   throw std::runtime_error(options.path + ", line " + std::to_string(first.number) + ": " +

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "lidar_upsampling/io/file_places.h"
 #include "lidar_upsampling/io/images.h"
 #include "lidar_upsampling/io/rawlog_stream.h"
 
@@ -26,6 +27,12 @@ CObservation::Ptr first_of(const std::string& label, const RawlogEntry& entry) {
 Pose T_vehicle_sensor(const LogIndex& index, const std::string& label, const RigOverrides& rig) {
   const auto lidar = rig.T_vehicle_lidar.find(label);
   if (lidar != rig.T_vehicle_lidar.end()) return lidar->second;
+  if (is_device_or_pipe(index.path))
+    throw std::runtime_error(index.path + ": where '" + label +
+                             "' sits, whose poses the poses_file tells ([ego_motion] poses_of), "
+                             "takes a second look, and a pipe cannot be read twice: save it to a "
+                             "file, or give [lidar." +
+                             label + "] pose");
   RawlogReader reader(LogFile(index.path, true), RecordBytes::dropped);
   while (const auto entry = reader.next()) {
     const CObservation::Ptr observation = first_of(label, *entry);
@@ -57,10 +64,11 @@ void check_times(const PoseFileOptions& file, const std::vector<PoseSample>& pos
   const auto [first, last] = std::minmax_element(
       poses.begin(), poses.end(),
       [](const PoseSample& a, const PoseSample& b) { return a.stamp < b.stamp; });
-  if (first->stamp > scans.back() || last->stamp < scans.front())
+  const auto [first_scan, last_scan] = std::minmax_element(scans.begin(), scans.end());
+  if (first->stamp > *last_scan || last->stamp < *first_scan)
     throw std::runtime_error(file.path + ": its poses are of another time, " +
                              span_of(first->stamp, last->stamp) + " (UNIX s), than the scans, " +
-                             span_of(scans.front(), scans.back()));
+                             span_of(*first_scan, *last_scan));
 }
 
 }  // namespace

@@ -65,7 +65,7 @@ void PackedWriter::join() {
     is_over_ = true;
   }
   changed_.notify_all();
-  worker_.join();
+  if (worker_.joinable()) worker_.join();
 }
 
 void PackedWriter::finish() {

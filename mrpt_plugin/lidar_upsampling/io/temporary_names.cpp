@@ -66,18 +66,15 @@ extern "C" void remove_all_and_end(int signal) {
 }
 
 bool is_hexadecimal(char c) { return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'f'); }
-bool is_decimal(char c) { return c >= '0' && c <= '9'; }
 
-// The file that a temporary name belongs to, empty: it is none of ours. The first versions had the
-// process's number there.
+// The file that a temporary name belongs to, empty: it is none of ours.
 std::string owner_of(const std::string& name) {
   const auto mark = name.rfind(kMark);
   if (mark == std::string::npos || mark == 0) return {};
   const std::string all = name.substr(mark + std::strlen(kMark));
   const std::string ending = all.substr(0, all.find('.'));
   const bool is_ours =
-      (ending.size() == kDigits && std::all_of(ending.begin(), ending.end(), is_hexadecimal)) ||
-      (!ending.empty() && std::all_of(ending.begin(), ending.end(), is_decimal));
+      ending.size() == kDigits && std::all_of(ending.begin(), ending.end(), is_hexadecimal);
   return is_ours ? name.substr(0, mark) : std::string();
 }
 
