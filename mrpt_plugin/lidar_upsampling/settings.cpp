@@ -83,8 +83,8 @@ void list_ego(Config& c, SettingList& v) {
               "auto: the first of poses, odometry, gnss that the log offers, joined with scans and "
               "camera; else those alone");
   v.flag("fuse", e.fuse,
-         "auto: poses are weighed by how well they agree with registered scans; false: taken at "
-         "their word, as by the paper");
+         "if source = auto, poses are weighed by how well they agree with registered scans; false: "
+         "taken at their word, as by the paper");
   v.number("max_interpolation_gap_s", e.max_interpolation_gap_s, kPositive,
            "samples further apart are not joined");
   v.number("max_extrapolation_s", e.max_extrapolation_s, kNotNegative,
