@@ -22,7 +22,8 @@ struct SteadyMotion {
 /// A real scan and what is known of it, the same whether it is the last one, the key scan or to
 /// come.
 struct PreparedScan {
-  LidarScan scan;         ///< all points at its stamp
+  LidarScan scan;  ///< all points at its stamp, in level axes (level_frame.h)
+  Eigen::Matrix3d R_level_lidar = Eigen::Matrix3d::Identity();  ///< to these from the LiDAR's own
   bool is_sweep = false;  ///< what moves on its own was seen at the instants that `time_s` tells
   Pose T_rest_lidar = Pose::Identity();            ///< frame at rest: the first scan's
   Pose T_scan_before = Pose::Identity();           ///< ego-motion since the scan before

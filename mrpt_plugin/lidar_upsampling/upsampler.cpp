@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "lidar_upsampling/camera_view.h"
+#include "lidar_upsampling/level_frame.h"
 #include "lidar_upsampling/object_motions.h"
 #include "lidar_upsampling/scan_of_next.h"
 #include "lidar_upsampling/sights.h"
@@ -109,23 +110,31 @@ VirtualScan LidarUpsampler::compose(ScanMotion motion) {
   Stopwatch watch(timing_, "composition");
   const PreparedScan* next = to_come_.empty() ? nullptr : to_come_.front().get();
   std::optional<VirtualScan> of_next;
-  if (next != nullptr && next->resampler)
+  if (next != nullptr && next->resampler) {
     of_next = assign_points(next->scan, motion_of_next(*next, motion, key_->scan, *key_->seen), {},
                             config_.compose);
+    put_in_axes(*of_next, next->R_level_lidar.transpose());
+  }
   VirtualScan scan = assign_points(key_->scan, std::move(motion),
                                    config_.virtual_label(key_->scan.label), config_.compose);
+  scan.T_rest_lidar_t = key_->T_rest_lidar * scan.T_lidar_t_lidar_k.inverse();
+  scan.other_clusters = std::exchange(key_->other_clusters, {});
+  const Eigen::Matrix3d& R_level_lidar = key_->R_level_lidar;
   if (!key_->resampler) move_points(key_->scan, scan);
+  put_in_axes(scan, R_level_lidar.transpose());
   watch.stop();
   if (key_->resampler) {
     const Stopwatch watch_beams(timing_, "resampling");
     std::optional<BeamResampler::OtherView> other;
     if (of_next) other.emplace(BeamResampler::OtherView{*next->resampler, *of_next});
     scan = key_->resampler->resample(std::move(scan), other ? &*other : nullptr);
-    if (scan.resampling != Resampling::done) move_points(key_->scan, scan);
+    if (scan.resampling != Resampling::done) {
+      put_in_axes(scan, R_level_lidar);
+      move_points(key_->scan, scan);
+      put_in_axes(scan, R_level_lidar.transpose());
+    }
   }
   if (key_->is_sweep) scan.scan.time_s.clear();  // all are of one instant
-  scan.T_rest_lidar_t = key_->T_rest_lidar * scan.T_lidar_t_lidar_k.inverse();
-  scan.other_clusters = std::exchange(key_->other_clusters, {});
   scan.timing = std::exchange(timing_, {});
   return scan;
 }

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "lidar_upsampling/camera_view.h"
+#include "lidar_upsampling/level_frame.h"
 #include "lidar_upsampling/objects/anchored_scan.h"
 #include "lidar_upsampling/objects/object_points.h"
 #include "lidar_upsampling/objects/road_users.h"
@@ -68,7 +69,14 @@ std::vector<StageTime> look_at(const Config& config, PreparedScan& prepared) {
   const auto find_beams = [&] {
     if (config.resample != "beam") return;
     const Stopwatch watch(of_beams, "beams");
-    prepared.resampler = std::make_unique<const BeamResampler>(scan, config.resampling);
+    const bool is_tilted = !prepared.R_level_lidar.isIdentity(0);
+    LidarScan as_measured;
+    if (is_tilted) {
+      as_measured = scan;
+      put_in_axes(as_measured, prepared.R_level_lidar.transpose());
+    }
+    prepared.resampler =
+        std::make_unique<const BeamResampler>(is_tilted ? as_measured : scan, config.resampling);
   };
   tbb::parallel_invoke(sort_points, find_beams);
   times.insert(times.end(), of_beams.begin(), of_beams.end());
@@ -109,6 +117,8 @@ std::unique_ptr<PreparedScan> LidarUpsampler::prepared(LidarScan scan, const Pre
   auto result = std::make_unique<PreparedScan>();
   const std::vector<float> times =
       point_times(scan, config_.sweep, turn_s(config_.sweep, expected_scans_, scan_period_s_));
+  result->R_level_lidar = level_rotation(scan.T_vehicle_lidar);
+  put_in_axes(scan, result->R_level_lidar);
   const auto as_measured = times.empty() ? std::vector<Eigen::Vector3f>{} : scan.points;
   straighten(scan, times, before != nullptr ? before->motion.rate : Twist(Twist::Zero()));
   result->scan = std::move(scan);

@@ -76,6 +76,16 @@ TEST(SweepingLidar, points_are_taken_from_their_own_instants) {
   EXPECT_LT(points.moving, 0.7 * none.moving);
 }
 
+TEST(SweepingLidar, that_sits_tilted_does_as_well_as_a_level_one) {
+  const std::string street =
+      std::string(kSweep) + "[lidar]\nrings = 96\nfov_up_deg = 14\nfov_down_deg = -35\n";
+  StreetRun level(street), tilted(street + "orientation_deg = 0 10 0\n");
+  const SweepErrors upright = sweep_errors(level, ScanTime::points);
+  const SweepErrors aslant = sweep_errors(tilted, ScanTime::points);
+  EXPECT_LT(aslant.standing, 0.003);
+  EXPECT_LT(aslant.moving, 1.2 * upright.moving + 0.01);
+}
+
 TEST(SweepingLidar, without_poses_the_rate_between_scans_straightens_them) {
   StreetRun street(kSweep);
   const SweepErrors none = sweep_errors(street, ScanTime::none, false);
