@@ -60,7 +60,9 @@ void densify_all(const std::vector<LogJob>& jobs, std::size_t at_once,
   std::size_t num_failed = 0;
   const auto ended = [&](std::size_t number, const Ending& ending) {
     progress(static_cast<double>(++num_done) / static_cast<double>(jobs.size()));
-    if (!ending.failed) std::cout << jobs[number].job.output << '\n' << ending.text << std::endl;
+    const DensifyJob& job = jobs[number].job;
+    std::cout << (ending.failed ? job.input + ": failed" : job.output) << '\n'
+              << ending.text << std::endl;
   };
   const std::vector<Ending> endings = run_in_processes(work, at_once, ended);
   for (std::size_t i = 0; i < endings.size(); ++i) {

@@ -12,6 +12,7 @@
 #include "common/tool_main.h"
 #include "dgp2rawlog/dgp_labels.h"
 #include "dgp2rawlog/dgp_log.h"
+#include "lidar_upsampling/io/file_places.h"
 
 namespace lidar_upsampling::dgp {
 namespace {
@@ -38,6 +39,9 @@ void report(const Scene& scene) {
 }
 
 void convert(const Options& options) {
+  check_files({{"--scene", options.scene}}, {{"--output", options.output},
+                                             {"--boxes", options.labels.boxes},
+                                             {"--truth-objects", options.labels.truth_objects}});
   RawlogWriter writer(options.output, options.overwrite);
   const Scene scene = open_scene(options.scene, options.cameras);
   report(scene);

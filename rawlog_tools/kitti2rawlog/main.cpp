@@ -58,7 +58,7 @@ void convert(const Options& options) {
   if (!options.label_file.empty() && !options.labels.any()) {
     throw std::runtime_error("--labels needs --truth-objects or --boxes, where they go");
   }
-  check_files({{"--labels", options.label_file}},
+  check_files({{"--labels", options.label_file}, {"--drive", options.drive + "/label_02.txt"}},
               {{"--output", options.output},
                {"--boxes", options.labels.boxes},
                {"--truth-objects", options.labels.truth_objects}});

@@ -69,10 +69,12 @@ Choice choice_of(const Options& options, const std::map<Stamp, ObjectsAt>& objec
   return choice;
 }
 
+// @param number of the scans of its stamp so far.
 std::string write_one(const Options& options, const std::map<Stamp, ObjectsAt>& objects,
-                      const LidarScan& scan) {
-  const std::string name =
+                      const LidarScan& scan, int number) {
+  std::string name =
       options.track >= 0 ? "track_" + std::to_string(options.track) : to_text(scan.stamp);
+  if (number > 1) name += "-" + std::to_string(number);
   const std::string file = name + "." + options.format;
   const std::string path = (std::filesystem::path(options.output) / file).string();
   if (options.track >= 0) {
@@ -94,17 +96,21 @@ void export_scans(const Options& options) {
   const Choice choice = choice_of(options, objects);
   IndexTable table(options.output, options.overwrite);
   ReadScans read;
+  std::map<Stamp, int> num_of_stamp;
   {
     Progress progress("exporting");
     read = for_each_chosen_scan({options.input, options.accept_truncated}, choice,
                                 std::ref(progress), [&](const LidarScan& scan) {
                                   table.make_folder();
-                                  table.add(write_one(options, objects, scan), scan);
+                                  const int number = ++num_of_stamp[scan.stamp];
+                                  table.add(write_one(options, objects, scan, number), scan);
                                 });
   }
-  table.write();
   for (const auto& count : read.unused) warn("rawlog-export", to_text(count));
   if (read.damage) warn("rawlog-export", *read.damage);
+  if (read.count == 0)
+    throw std::runtime_error(options.input + ": none of the chosen scans can be used");
+  table.write();
   std::cout << read.count << (read.count == 1 ? " file" : " files") << " in " << options.output
             << ", listed in its index.csv\n";
 }

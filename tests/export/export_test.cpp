@@ -94,6 +94,18 @@ TEST_F(Export, a_stamp_chooses_the_nearest_scan) {
   EXPECT_TRUE(std::filesystem::exists(file_of(scan, ".ply")));
 }
 
+TEST_F(Export, a_file_is_each_scans_own_where_two_have_one_stamp) {
+  const std::string twice = path("twice.rawlog");
+  RawlogWriter writer(twice, false);
+  const LidarScan scan = scans("LIDAR").front();
+  for (int i = 0; i < 2; ++i) writer.write(*observation_from_scan(scan, Carrier::automatic));
+  writer.commit();
+  expect_done(std::string(RAWLOG_EXPORT) + " --input " + twice + " --label LIDAR --output " +
+              path("files"));
+  EXPECT_TRUE(std::filesystem::exists(file_of(scan, ".ply")));
+  EXPECT_TRUE(std::filesystem::exists(file_of(scan, "-2.ply")));
+}
+
 TEST_F(Export, a_scene_holds_the_scan_and_the_boxes_of_its_instant) {
   expect_done(command("--format 3Dscene --index 6 --report " + path("report.json")));
   const LidarScan scan = scans("LIDAR_VIRTUAL").at(6);
