@@ -111,14 +111,32 @@ std::vector<int> in_scope(const std::vector<ObjectReference>& objects, const Lid
 LastMotions::LastMotions(const LidarScan& previous, const Pose& T_previous_key, double dt)
     : previous_(without_ground(previous)), T_previous_key_(T_previous_key), dt_(dt) {}
 
+std::vector<Pose> LastMotions::guesses_for(const ObjectReference& object,
+                                           const std::vector<ObjectReference>& before) const {
+  double nearest_m = 2;  // a car's half: what lies nearer is the same one
+  std::vector<Pose> guesses{T_previous_key_, Pose::Identity()};
+  for (const ObjectReference& other : before) {
+    if (!other.last_motion) continue;
+    const Pose T_previous_key =
+        exp_se3(Twist(-dt_ * other.last_motion->per_second)) * T_previous_key_;
+    const double apart =
+        (T_previous_key * object.motion.centroid_k - other.motion.centroid_k).norm();
+    if (apart >= nearest_m) continue;
+    nearest_m = apart;
+    guesses.resize(2);
+    guesses.push_back(T_previous_key);
+  }
+  return guesses;
+}
+
 void LastMotions::find(std::vector<ObjectReference>& objects, const std::vector<int>& which,
-                       const LidarScan& key) const {
+                       const LidarScan& key, const std::vector<ObjectReference>& before) const {
   tbb::parallel_for(std::size_t{0}, which.size(), [&](std::size_t i) {
     ObjectReference& object = objects[which[i]];
     if (object.last_motion_sought || !object.excluded.empty()) return;
     object.last_motion_sought = true;
-    const auto found = register_object(points_at(key, object.points), previous_,
-                                       {T_previous_key_, Pose::Identity()});
+    const auto found =
+        register_object(points_at(key, object.points), previous_, guesses_for(object, before));
     if (found.status != RegistrationStatus::reliable) return;
     // Back over ground from the key scan to the one before it, both in the frame of the key scan.
     const Pose T_back = T_previous_key_.inverse() * found.T_target_object;

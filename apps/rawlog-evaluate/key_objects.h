@@ -30,11 +30,15 @@ class LastMotions {
   /// @param T_previous_key ego-motion, lidar frames. @param dt s, between the scans.
   LastMotions(const LidarScan& previous, const Pose& T_previous_key, double dt);
 
-  /// Finds those that are not known yet.
+  /// @brief Finds those that are not known yet. Where one of the objects of the scan before,
+  /// whose motions are known, may have come, it may go on as that did.
   void find(std::vector<ObjectReference>& objects, const std::vector<int>& which,
-            const LidarScan& key) const;
+            const LidarScan& key, const std::vector<ObjectReference>& before) const;
 
  private:
+  [[nodiscard]] std::vector<Pose> guesses_for(const ObjectReference& object,
+                                              const std::vector<ObjectReference>& before) const;
+
   Surface previous_;  // off the ground
   Pose T_previous_key_;
   double dt_;

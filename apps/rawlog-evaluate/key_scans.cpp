@@ -12,7 +12,9 @@ void KeyScans::take(LidarScan scan) {
   const auto previous = std::exchange(key_, std::make_shared<KeyScan>());
   key_->scan = std::move(scan);
   if (references_ != nullptr) find_objects();
-  if (previous) prepare_last_motions(previous->scan);
+  if (!previous) return;
+  prepare_last_motions(previous->scan);
+  key_->objects_before = previous->objects;
 }
 
 void KeyScans::find_objects() {
@@ -55,7 +57,7 @@ std::optional<InstantReference> KeyScans::reference_at(Stamp stamp) {
   if (!reference) return {};
   ego_rate_ = log_se3(reference->T_ego) / dt;
   if (!key_->last_motions) return reference;
-  key_->last_motions->find(key_->objects, reference->indices, key_->scan);
+  key_->last_motions->find(key_->objects, reference->indices, key_->scan, key_->objects_before);
   for (std::size_t i = 0; i < reference->indices.size(); ++i)
     reference->objects[i].last_motion = key_->objects[reference->indices[i]].last_motion;
   return reference;

@@ -36,7 +36,7 @@ class KeyScans {
   /// A key scan and all that is judged once for it.
   struct KeyScan {
     LidarScan scan;
-    std::vector<ObjectReference> objects;
+    std::vector<ObjectReference> objects, objects_before;
     std::optional<RegisteredMotions> motions;
     std::optional<LastMotions> last_motions;
   };

@@ -39,7 +39,7 @@ LabelJudge::LabelJudge(const Truth& truth, const EvaluationOptions& options,
 
 void LabelJudge::take_key(const LidarScan& key, const LastMotions* last_motions) {
   key_ = &key;
-  clusters_ = objects_by_clusters(key);
+  clusters_before_ = std::exchange(clusters_, objects_by_clusters(key));
   last_motions_ = last_motions;
 }
 
@@ -64,7 +64,7 @@ void LabelJudge::note(Stamp stamp, Stamp told_at) {
   const auto seen = in_scope(clusters_, *key_, T_ego, cameras_, options_);
   const auto beyond = labelled_beyond(clusters_, seen, *instant, options_.labels.grown_m);
   for (const auto* which : {&seen, &beyond}) {
-    if (last_motions_ != nullptr) last_motions_->find(clusters_, *which, *key_);
+    if (last_motions_ != nullptr) last_motions_->find(clusters_, *which, *key_, clusters_before_);
     for (ReportedObject& row :
          constant_velocity_rows(clusters_, *which, T_ego, instant->dt, instant->told_at)) {
       row.in_view = which == &seen;

@@ -41,7 +41,7 @@ class LabelJudge {
   const std::vector<Camera>& cameras_;
   std::vector<Stamp> real_stamps_;
   const LidarScan* key_ = nullptr;
-  std::vector<ObjectReference> clusters_;  // of the key scan
+  std::vector<ObjectReference> clusters_, clusters_before_;  // of the key scan, of that before
   const LastMotions* last_motions_ = nullptr;
   std::vector<LabelledInstant> instants_;
   std::vector<ReportedObject> constant_velocity_;

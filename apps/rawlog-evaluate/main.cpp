@@ -15,6 +15,7 @@
 #include "page/running_time.h"
 #include "rawlog-densify/job_settings.h"
 #include "report.h"
+#include "truth.h"
 #include "uncertainty.h"
 
 namespace {
@@ -109,7 +110,8 @@ class Outputs {
     std::vector<FileUse> read{{"--report", request.report}, {"--config", request.config}};
     for (const std::string& path : request.inputs) read.push_back({"--input", path});
     for (const std::string& path : request.references) read.push_back({"--reference", path});
-    for (const std::string& path : request.truth_objects) read.push_back({"--labels", path});
+    for (const std::string& path : request.truth_objects)
+      for (const std::string& table : truth_tables(path)) read.push_back({"--labels", table});
     check_files(read, {{"--json", request.json}, {"--csv", request.csv}, {"--html", request.html}});
     for (const std::string& path : {request.json, request.csv, request.html})
       if (!path.empty()) files_.emplace(path, OutputFile(path, {true, true}));

@@ -50,6 +50,9 @@ struct Truth {
 /// @throw std::runtime_error naming the file, line and column at fault.
 [[nodiscard]] Truth load_truth(const std::string& objects_csv);
 
+/// @brief What load_truth() reads. @throw std::runtime_error it is no `<stem>_objects.csv`.
+[[nodiscard]] std::vector<std::string> truth_tables(const std::string& objects_csv);
+
 /// Where the truth takes points of the key scan: T_lidar_t_lidar_k of the ego-motion, or of an
 /// object since the scan saw it. None where the truth does not reach.
 [[nodiscard]] std::optional<Pose> true_ego_motion(const Truth& truth, const LidarScan& key,

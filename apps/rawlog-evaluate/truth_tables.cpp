@@ -150,6 +150,10 @@ void read_ignored(const std::string& path, Truth& truth) {
 
 }  // namespace
 
+std::vector<std::string> truth_tables(const std::string& objects_csv) {
+  return {objects_csv, beside(objects_csv, "_ego.csv"), beside(objects_csv, "_ignored.csv")};
+}
+
 Truth load_truth(const std::string& objects_csv) {
   Truth truth;
   truth.T_world_vehicle = Trajectory(kTruthLimits);

@@ -43,11 +43,29 @@ class Rows : public ::testing::Test {
 
 TEST_F(Rows, constant_velocity_goes_on_as_between_the_last_two_scans) {
   std::vector<ObjectReference> objects{car_};
-  LastMotions(previous_, Pose::Identity(), 0.1).find(objects, {0}, key_);
+  LastMotions(previous_, Pose::Identity(), 0.1).find(objects, {0}, key_, {});
   car_ = objects.front();
   const Estimates rows = estimates({key_, later_, later_});
   ASSERT_TRUE(rows[Row::constant_velocity]);
   EXPECT_LT(position_error(car_.motion, *rows[Row::constant_velocity]), 0.05);
+}
+
+TEST_F(Rows, constant_velocity_finds_what_is_fast_once_it_has_been_found) {
+  // As if the car had been found at the scan before: nothing else leads 8 m back.
+  const double step = 8;
+  LidarScan far = previous_;
+  for (Eigen::Vector3f& point : far.points) point.x() -= static_cast<float>(step - 1);
+  ObjectReference before = car_;
+  before.motion.centroid_k.x() -= step;
+  before.last_motion = LastMotion{};
+  before.last_motion->per_second[3] = step / 0.1;
+  std::vector<ObjectReference> unaided{car_}, led{car_};
+  const LastMotions motions(far, Pose::Identity(), 0.1);
+  motions.find(unaided, {0}, key_, {});
+  motions.find(led, {0}, key_, {before});
+  EXPECT_FALSE(unaided.front().last_motion);
+  ASSERT_TRUE(led.front().last_motion);
+  EXPECT_NEAR(led.front().last_motion->per_second[3], step / 0.1, 1);
 }
 
 TEST_F(Rows, without_an_earlier_scan_constant_velocity_is_left_with_the_ego_motion) {
