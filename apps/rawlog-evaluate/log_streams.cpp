@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "lidar_upsampling/front_end/pose_input.h"
+#include "lidar_upsampling/io/virtual_label.h"
 #include "rawlog-densify/ego_ahead.h"
 
 namespace lidar_upsampling {
@@ -19,10 +20,8 @@ namespace {
 
 const std::string kEnding = kVirtualEnding;
 
-bool is_virtual(const std::string& label) {
-  return label.size() > kEnding.size() &&
-         label.compare(label.size() - kEnding.size(), kEnding.size(), kEnding) == 0;
-}
+// Without a label of its own the LiDAR cannot be asked for.
+bool is_virtual(const std::string& label) { return is_virtual_label(label) && label != kEnding; }
 
 }  // namespace
 

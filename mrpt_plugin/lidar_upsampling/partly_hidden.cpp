@@ -67,20 +67,19 @@ void take_up_hidden(PreparedScan& scan, TrackStore& store, std::vector<int>& tra
     ObjectTrack& track = store.tracks[i];
     if (is_seen[i] || !is_mover(track, options)) continue;
     TrackState now = predicted(track.latest, scan.scan.stamp, options.noise);
-    const auto shown = [&] {
+    const auto shown = [&](std::vector<Eigen::Vector3f> places) {
       return is_known_within(now, kReach_m)
-                 ? points_near(scan, points_by(track, now, scan.T_rest_lidar),
-                               [&](int j) { return !is_taken[j]; })
+                 ? points_near(scan, std::move(places), [&](int j) { return !is_taken[j]; })
                  : std::vector<int>{};
     };
-    const bool hides = is_hidden(*scan.seen, points_by(track, now, scan.T_rest_lidar)) &&
-                       is_known_within(now, 0.5 * track.length);
+    std::vector<Eigen::Vector3f> places = points_by(track, now, scan.T_rest_lidar);
+    const bool hides = is_hidden(*scan.seen, places) && is_known_within(now, 0.5 * track.length);
     ScanObject object;
-    object.points = shown();
+    object.points = shown(std::move(places));
     if (scan.is_sweep && !object.points.empty()) {  // where it was when the sweep met it
       object.time_s = mean_time(scan.scan.time_s, object.points);
       now = predicted(track.latest, shifted(scan.scan.stamp, object.time_s), options.noise);
-      object.points = shown();
+      object.points = shown(points_by(track, now, scan.T_rest_lidar));
     }
     if (object.points.empty() && !hides) continue;
     object.class_name = track.class_name;

@@ -9,17 +9,10 @@
 
 #include "lidar_upsampling/io/carriers.h"
 #include "lidar_upsampling/io/log_index.h"
+#include "lidar_upsampling/io/virtual_label.h"
 
 namespace lidar_upsampling::exporting {
 namespace {
-
-constexpr const char* kEnding = "_VIRTUAL";
-
-bool ends_as_virtual(const std::string& label) {
-  const std::string ending = kEnding;
-  return label.size() >= ending.size() &&
-         label.compare(label.size() - ending.size(), ending.size(), ending) == 0;
-}
 
 const StreamInfo& stream_of(const LogIndex& index, const std::string& label) {
   if (!label.empty()) {
@@ -29,15 +22,17 @@ const StreamInfo& stream_of(const LogIndex& index, const std::string& label) {
   }
   const StreamInfo* found = nullptr;
   for (const StreamInfo* stream : index.of_kind(StreamKind::lidar)) {
-    if (!ends_as_virtual(stream->label)) continue;
+    if (!is_virtual_label(stream->label)) continue;
     if (found != nullptr)
       throw std::runtime_error(index.path + ": virtual scans of several labels, " + found->label +
                                " and " + stream->label + ": choose with --label");
     found = stream;
   }
   if (found == nullptr)
-    throw std::runtime_error(index.path + ": no virtual scans (label *" + kEnding +
-                             "); choose others with --label; the log holds " + labels_of(index));
+    throw std::runtime_error(
+        index.path +
+        ": no virtual scans (label *_VIRTUAL); choose others with --label; the log holds " +
+        labels_of(index));
   return *found;
 }
 

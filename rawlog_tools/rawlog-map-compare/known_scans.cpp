@@ -11,6 +11,7 @@
 #include "lidar_upsampling/io/carriers.h"
 #include "lidar_upsampling/io/log_index.h"
 #include "lidar_upsampling/io/rawlog_stream.h"
+#include "lidar_upsampling/io/virtual_label.h"
 #include "lidar_upsampling/registration/scan_registration.h"
 #include "lidar_upsampling/types.h"
 
@@ -31,7 +32,7 @@ Trajectory registered(const LogFile& log) {
   std::optional<LidarScan> previous;
   Pose T_world_lidar = Pose::Identity(), step = Pose::Identity();
   for_each_scan(log, [&](const LidarScan& scan) {
-    if (is_virtual(scan.label)) return;
+    if (is_virtual_label(scan.label)) return;
     if (previous) {
       const auto found = register_scans(scan.points, previous->points, step);
       if (!found)
@@ -50,12 +51,6 @@ Trajectory registered(const LogFile& log) {
 }
 
 }  // namespace
-
-bool is_virtual(const std::string& label) {
-  const std::string ending = "_VIRTUAL";
-  return label.size() >= ending.size() &&
-         label.compare(label.size() - ending.size(), ending.size(), ending) == 0;
-}
 
 std::vector<std::string> for_each_scan(const LogFile& log,
                                        const std::function<void(const LidarScan&)>& use) {

@@ -12,9 +12,6 @@
 
 namespace lidar_upsampling::maps {
 
-/// Whether the label ends as those of virtual scans do.
-[[nodiscard]] bool is_virtual(const std::string& label);
-
 /// @brief Hands over every scan of a log, real and virtual, in its order.
 /// @return what there is to warn of: scans that are of no use, damage where that is accepted.
 /// @throw std::runtime_error it cannot be read.

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "known_scans.h"
+#include "lidar_upsampling/io/virtual_label.h"
 
 namespace lidar_upsampling::maps {
 namespace {
@@ -81,7 +82,7 @@ MapFigures compare_map(const LogFile& log, const Reference& reference, const Map
   MapFigures figures;
   VoxelSet map(options.voxel_m);
   figures.warnings = for_each_scan(log, [&](const LidarScan& scan) {
-    ++(is_virtual(scan.label) ? figures.num_virtual : figures.num_real);
+    ++(is_virtual_label(scan.label) ? figures.num_virtual : figures.num_real);
     for_each_point(scan, reference.T_world_vehicle, options.max_range_m,
                    [&](const Eigen::Vector3d& point) { map.insert(point); });
   });

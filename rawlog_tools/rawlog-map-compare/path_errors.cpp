@@ -13,6 +13,7 @@
 #include "lidar_upsampling/io/images.h"
 #include "lidar_upsampling/io/reading_guard.h"
 #include "lidar_upsampling/io/unpacker.h"
+#include "lidar_upsampling/io/virtual_label.h"
 #include "lidar_upsampling/units.h"
 
 namespace lidar_upsampling::maps {
@@ -46,9 +47,9 @@ PathErrors errors_of_path(const std::string& path, const Trajectory& T_world_veh
     const compat::Keyframe keyframe = compat::keyframe_of(map, i);
     const auto scan = scan_of(*keyframe.frame);
     if (!scan) continue;
-    ++(is_virtual(scan->sensorLabel) ? errors.num_virtual : errors.num_real);
+    ++(is_virtual_label(scan->sensorLabel) ? errors.num_virtual : errors.num_real);
     const auto truth = T_world_vehicle.at(scan->timestamp);
-    if (is_virtual(scan->sensorLabel) || !truth) continue;
+    if (is_virtual_label(scan->sensorLabel) || !truth) continue;
     const Pose T_map_vehicle = from_mrpt(keyframe.pose->getMeanVal());
     const Eigen::Vector3d place = truth->T_world_vehicle.translation();
     if (!T_world_map) {
