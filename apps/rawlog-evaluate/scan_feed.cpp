@@ -21,6 +21,7 @@ std::optional<LidarScan> ScanFeed::next() {
       return;
     if (auto scan = usable_.scan(observation)) waiting_.push_back(std::move(*scan));
   };
+  const ExternalStorageGuard storage;  // of the densified log, whose turn it is
   while (waiting_.empty()) {
     const auto entry = reader_.next();
     if (!entry) return std::nullopt;

@@ -24,7 +24,6 @@ class ScanFeed {
 
   /// @return the next scan, none at the end. @throw CorruptRawlog, std::runtime_error
   [[nodiscard]] std::optional<LidarScan> next();
-  [[nodiscard]] double progress() const { return reader_.progress(); }
 
  private:
   RawlogReader reader_;

@@ -102,6 +102,9 @@ bool share_external_storage(const std::string& source_rawlog, const std::string&
   return !error;
 }
 
+ExternalStorageGuard::ExternalStorageGuard() : before_(mrpt::io::getLazyLoadPathBase()) {}
+ExternalStorageGuard::~ExternalStorageGuard() { mrpt::io::setLazyLoadPathBase(before_); }
+
 RawlogReader::RawlogReader(const LogFile& log, RecordBytes bytes)
     : log_(log),
       bytes_(bytes),
@@ -109,7 +112,6 @@ RawlogReader::RawlogReader(const LogFile& log, RecordBytes bytes)
       stream_(std::make_unique<PackedReader>(log.path)),
       archive_(mrpt::serialization::archiveUniquePtrFrom<mrpt::io::CStream>(*stream_)) {
   register_stock_classes();
-  announce_external_storage();
 }
 
 RawlogReader::~RawlogReader() = default;

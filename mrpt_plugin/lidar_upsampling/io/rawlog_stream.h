@@ -63,10 +63,23 @@ struct CorruptRawlog : std::runtime_error {
 [[nodiscard]] bool share_external_storage(const std::string& source_rawlog,
                                           const std::string& target_rawlog);
 
+/// @brief Readers asked while it lives tell MRPT where their logs' external files lie; when it
+/// goes, MRPT looks for them where it did before, as a log in hand needs it.
+class ExternalStorageGuard {
+ public:
+  ExternalStorageGuard();
+  ~ExternalStorageGuard();
+  ExternalStorageGuard(const ExternalStorageGuard&) = delete;
+  ExternalStorageGuard& operator=(const ExternalStorageGuard&) = delete;
+
+ private:
+  std::string before_;
+};
+
 /// @brief Streams a rawlog (plain, gzip or zstd) object by object, and tells a clean end from a
 /// broken one. Also tells MRPT where the externally stored images and scans of the log lie (see
 /// external_storage_of). MRPT has one such path per process: load the external files of an object
-/// before another reader is asked for its next one.
+/// before another reader is asked for its next one, or guard that by ExternalStorageGuard.
 class RawlogReader {
  public:
   /// @param bytes of what is read; a frame's are kept where a member has them, to be split.
