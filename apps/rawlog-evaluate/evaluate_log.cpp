@@ -216,8 +216,9 @@ LogResult begun(const EvaluationJob& job, const LogIndices& indices) {
   result.scans = ScanResults(job.scratch_beside);
   result.input = job.input;
   result.reference = job.reference;
-  result.label = find_label(indices.input, job.label);
-  result.virtual_label = result.label + kVirtualEnding;
+  const ScanLabels labels = find_labels(indices.input, job.label, job.paper.config);
+  result.label = labels.real;
+  result.virtual_label = labels.dense;
   result.tolerance_s = job.tolerance_s;
   result.has_truth = !job.truth_objects.empty();
   if (job.options.protocol) result.protocol = job.options.protocol->name;

@@ -134,7 +134,6 @@ ScanResult evaluate_scan(const ScanSet& scans, InstantReference reference,
   result.stamp = scans.virtual_scan.stamp;
   result.key_stamp = scans.key.stamp;
   result.dt = seconds_between(scans.key.stamp, scans.virtual_scan.stamp);
-  result.ego_found = true;
   result.interpolated = reference.interpolated;
 
   const RowSources sources = prepare_rows(scans, reference.T_ego);

@@ -103,7 +103,6 @@ struct SampledResult {
 struct ScanResult {
   Stamp stamp, key_stamp;
   double dt = 0;
-  bool ego_found = false;
   bool interpolated = false;  ///< the reference, from scans of other instants
   bool points_told = false;   ///< one by one, by ring and column or order
   std::vector<ObjectResult> objects;

@@ -95,7 +95,6 @@ Json json_of(const ScanResult& scan) {
             {"key_stamp", scan.key_stamp.time_since_epoch().count()},
             {"dt_s", scan.dt},
             {"reference_interpolated", scan.interpolated},
-            {"ego_found", scan.ego_found},
             {"points_told", scan.points_told}};
   for (const Row row : kRows) {
     const char* name = name_of(row);

@@ -2,6 +2,7 @@
 // Copyright (c) 2026, the lidar_upsampling authors
 #include "label_score.h"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <set>
 #include <utility>
@@ -55,6 +56,16 @@ void judge_box(const LabelledBox& box, const ReportedObject* row, const Labelled
   }
 }
 
+/// @param place_k of the row, lidar frame at the key scan.
+void judge_covariance(const LabelledBox& box, const ReportedObject& row,
+                      const Eigen::Vector3d& place_k, LabelScore& score) {
+  if (!box.counts || !box.T_lidar_t_lidar_k || row.covariance.isZero() || !holds(box, place_k, 0))
+    return;
+  const Eigen::Vector3d error = row.position - *box.T_lidar_t_lidar_k * place_k;
+  score.rows.push_back(
+      {row.status, error.dot(row.covariance.inverse() * error), row.sigma, error.norm()});
+}
+
 void follow(const LabelledBox& box, const ReportedObject* row, TracksOf& tracks,
             LabelScore& score) {
   if (row == nullptr || row->track < 0) return;
@@ -78,6 +89,7 @@ void judge_instant(const LabelledInstant& instant, const RowsAt& rows,
       if (!row.in_view && !box.counts) continue;
       const Eigen::Vector3d place = at_key(row.position, row, instant);
       if (!holds(box, place, options.grown_m)) continue;
+      judge_covariance(box, row, place, score);
       if (!stands) claimed.insert(&row);
       const std::pair<bool, int> rank(holds(box, place, 0), row.points);
       if (mine != nullptr && rank <= best) continue;
@@ -188,6 +200,7 @@ std::optional<LabelledInstant> labelled_instant(const Truth& truth, const LidarS
     const auto at_t = object.T_world_object.at(stamp);
     const Pose T_world_box =
         at_t ? at_t->T_world_vehicle : T_world_lidar_k * box->T_box_lidar.inverse();
+    if (at_t) box->T_lidar_t_lidar_k = T_world_lidar_t.inverse() * T_world_box * box->T_box_lidar;
     box->counts =
         box->velocity_known && box->range_m <= options.max_range_m &&
         (options.all_around ||
@@ -218,6 +231,7 @@ void append(LabelScore& total, const LabelScore& score) {
   add(total.movers, score.movers);
   add(total.parked, score.parked);
   add(total.false_shifts_m, score.false_shifts_m);
+  add(total.rows, score.rows);
   total.num_followed += score.num_followed;
   total.num_switches += score.num_switches;
 }

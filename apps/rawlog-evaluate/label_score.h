@@ -29,6 +29,7 @@ struct LabelledBox {
   std::string id, class_name;
   Pose T_box_lidar = Pose::Identity();             ///< lidar frame at the key scan
   Eigen::Vector3d size = Eigen::Vector3d::Zero();  ///< m
+  std::optional<Pose> T_lidar_t_lidar_k;           ///< its motion; none: no label at the instant
   /// Over ground, halfway between the key scan and the instant, as which motions since the key scan
   /// are told; lidar frame at the instant.
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();
@@ -62,12 +63,21 @@ struct ParkedSight {
   double shift_m = 0;  ///< over the horizon
 };
 
+/// How far a report's row is true to its covariance.
+struct RowError {
+  std::string status;
+  double normalised_sq = 0;  ///< position error squared, in units of its covariance
+  double sigma_m = 0;        ///< reported, worst direction
+  double error_m = 0;
+};
+
 /// How one row of the comparison does by the labels.
 struct LabelScore {
   int num_images = 0;
-  std::vector<MoverSight> movers;          ///< all that are labelled
-  std::vector<ParkedSight> parked;         ///< those with a row
-  std::vector<double> false_shifts_m;      ///< of what is told to move and lies in no label
+  std::vector<MoverSight> movers;      ///< all that are labelled
+  std::vector<ParkedSight> parked;     ///< those with a row
+  std::vector<double> false_shifts_m;  ///< of what is told to move and lies in no label
+  std::vector<RowError> rows;          ///< all that lie in a label that counts, with a covariance
   int num_followed = 0, num_switches = 0;  ///< objects with a row; changes of their tracks
 };
 

@@ -3,12 +3,12 @@
 #include "label_table.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 #include <functional>
 #include <numeric>
 #include <set>
+
+#include "text_table.h"
 
 namespace lidar_upsampling {
 
@@ -22,37 +22,17 @@ double rms(const std::vector<double>& values) {
 
 double mean_of(const std::vector<double>& values) { return summarize(values).mean; }
 
-std::string right(const std::string& text, std::size_t width) {
-  return std::string(width - std::min(width, text.size()), ' ') + text;
-}
-
-std::string number(double value, int digits, std::size_t width = 9) {
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.*f", digits, value);
-  return right(text.data(), width);
-}
-
-std::string left(const std::string& text) {
-  return text + std::string(40 - std::min<std::size_t>(40, text.size()), ' ');
-}
-
-std::string headed(const std::string& title, std::initializer_list<const char*> columns) {
-  std::string line = "\n" + left(title);
-  for (const char* column : columns) line += right(column, 9);
-  return line + "\n";
-}
-
 std::string mover_line(const std::string& name, const ErrorSummary& error,
                        const ErrorSummary& velocity, double velocity_rms) {
   if (error.count == 0) return {};
-  return left("  " + name) + right(std::to_string(error.count), 9) + number(error.mean, 3) +
-         number(error.median, 3) + number(error.p95, 3) + number(velocity.mean, 2) +
-         number(velocity_rms, 2) + "\n";
+  return named(name) + formatted("%9d", error.count) + cell(true, error.mean) +
+         cell(true, error.median) + cell(true, error.p95) + cell(true, velocity.mean, 2) +
+         cell(true, velocity_rms, 2) + "\n";
 }
 
 std::string movers_block(const PerRow<std::optional<LabelFigures>>& rows, bool all) {
-  std::string block = headed(all ? "labelled movers, error" : "those that a row tells of",
-                             {"count", "mean m", "median m", "p95 m", "m/s", "rms m/s"});
+  std::string block = heading(all ? "labelled movers, error" : "those that a row tells of",
+                              {"count", "mean m", "median m", "p95 m", "m/s", "rms m/s"});
   const std::size_t empty = block.size();
   for (const Row row : kRows)
     if (rows[row])
@@ -65,44 +45,35 @@ std::string movers_block(const PerRow<std::optional<LabelFigures>>& rows, bool a
 
 std::string false_block(const PerRow<std::optional<LabelFigures>>& rows) {
   std::string block =
-      headed("told to move that do not, tracks",
-             {"parked", "moved %", "shift m", "false/im", "shift m", "followed", "switches"});
+      heading("told to move that do not, tracks",
+              {"parked", "moved %", "shift m", "false/im", "shift m", "followed", "switches"});
   for (const Row row : kRows) {
     if (!rows[row]) continue;
     const LabelFigures& f = *rows[row];
-    block += left(std::string("  ") + name_of(row)) + right(std::to_string(f.num_parked), 9) +
-             (f.num_parked > 0
-                  ? number(100. * f.num_parked_told / f.num_parked, 0) + number(f.parked_shift_m, 3)
-                  : right("-", 9) + right("-", 9)) +
-             number(f.false_per_image, 2) + number(f.false_shift_m, 3) +
-             (f.num_followed > 0 ? right(std::to_string(f.num_followed), 9) +
-                                       right(std::to_string(f.num_switches), 9)
-                                 : right("-", 9) + right("-", 9)) +
-             "\n";
+    block +=
+        named(name_of(row)) + formatted("%9d", f.num_parked) +
+        (f.num_parked > 0
+             ? cell(true, 100. * f.num_parked_told / f.num_parked, 0) + cell(true, f.parked_shift_m)
+             : cell(false, 0) + cell(false, 0)) +
+        cell(true, f.false_per_image, 2) + cell(true, f.false_shift_m) +
+        (f.num_followed > 0 ? formatted("%9d", f.num_followed) + formatted("%9d", f.num_switches)
+                            : cell(false, 0) + cell(false, 0)) +
+        "\n";
   }
   return block;
 }
 
 std::string group_block(const std::string& key, const std::vector<LabelGroup>& groups) {
   if (groups.empty()) return {};
-  std::string block = headed("labelled movers by " + key + ", mean m",
-                             {"count", "ego", "const-v", "paper", "ours"});
+  std::string block = heading("labelled movers by " + key + ", mean m",
+                              {"count", "ego", "const-v", "paper", "ours"});
   for (const LabelGroup& group : groups) {
-    block += left("  " + group.name) + right(std::to_string(group.count), 9);
+    block += named(group.name) + formatted("%9d", group.count);
     for (const Row row : {Row::ego, Row::constant_velocity, Row::paper, Row::ours})
-      block += group.mean_m[row] ? number(*group.mean_m[row], 3) : right("-", 9);
+      block += group.mean_m[row] ? cell(true, *group.mean_m[row]) : cell(false, 0);
     block += "\n";
   }
   return block;
-}
-
-std::string edges_text(double from, double to, const char* unit) {
-  std::array<char, 64> text{};
-  if (std::isinf(to))
-    std::snprintf(text.data(), text.size(), "%.0f %s and more", from, unit);
-  else
-    std::snprintf(text.data(), text.size(), "%.0f to %.0f %s", from, to, unit);
-  return text.data();
 }
 
 using Belongs = std::function<bool(const MoverSight&)>;
@@ -126,7 +97,7 @@ std::vector<LabelGroup> binned_movers(const LabelScores& scores, const std::vect
   std::vector<LabelGroup> groups;
   for (std::size_t i = 0; i + 1 < edges.size(); ++i)
     add_group(
-        scores, edges_text(edges[i], edges[i + 1], unit),
+        scores, edges_of(edges[i], edges[i + 1], unit),
         [&](const MoverSight& m) { return m.*key >= edges[i] && m.*key < edges[i + 1]; }, groups);
   return groups;
 }

@@ -9,21 +9,9 @@
 #include <stdexcept>
 
 #include "lidar_upsampling/front_end/pose_input.h"
-#include "lidar_upsampling/io/virtual_label.h"
 #include "rawlog-densify/ego_ahead.h"
 
 namespace lidar_upsampling {
-
-const char* const kVirtualEnding = "_VIRTUAL";
-
-namespace {
-
-const std::string kEnding = kVirtualEnding;
-
-// Without a label of its own the LiDAR cannot be asked for.
-bool is_virtual(const std::string& label) { return is_virtual_label(label) && label != kEnding; }
-
-}  // namespace
 
 LogIndices index_logs(const EvaluationJob& job) {
   LogIndices indices;
@@ -44,15 +32,19 @@ LogIndices index_logs(const EvaluationJob& job) {
   return indices;
 }
 
-std::string find_label(const LogIndex& input, const std::string& wanted) {
-  for (const StreamInfo* stream : input.of_kind(StreamKind::lidar)) {
-    if (!is_virtual(stream->label)) continue;
-    std::string real = stream->label.substr(0, stream->label.size() - kEnding.size());
-    if (wanted.empty() || wanted == real) return real;
+ScanLabels find_labels(const LogIndex& input, const std::string& wanted, const Config& config) {
+  for (const StreamInfo* real : input.of_kind(StreamKind::lidar)) {
+    const std::string dense = config.virtual_label(real->label);
+    if ((wanted.empty() || wanted == real->label) && dense != real->label &&
+        input.find(dense, StreamKind::lidar) != nullptr)
+      return {real->label, dense};
   }
-  throw std::runtime_error(input.path + ": holds no virtual scans (label " +
-                           (wanted.empty() ? "..." : wanted) + kEnding +
-                           "); densify it with rawlog-densify. It holds " + labels_of(input));
+  throw std::runtime_error(
+      input.path + ": holds no virtual scans (label " +
+      config.virtual_label(wanted.empty() ? "..." : wanted) +
+      "); densify it with rawlog-densify, or tell the output_label that it was "
+      "densified with (--set). It holds " +
+      labels_of(input));
 }
 
 const StreamInfo& reference_stream(const LogIndex& reference, const std::string& label) {

@@ -12,8 +12,10 @@
 
 namespace lidar_upsampling {
 
-/// What rawlog-densify appends to the label of the LiDAR.
-extern const char* const kVirtualEnding;
+/// Of a LiDAR's scans, and of the virtual ones made of them.
+struct ScanLabels {
+  std::string real, dense;
+};
 
 /// What is known of the logs to compare before one of them goes by.
 struct LogIndices {
@@ -26,9 +28,11 @@ struct LogIndices {
 /// @brief Reads both logs once. @throw std::runtime_error, CorruptRawlog as index_log()
 [[nodiscard]] LogIndices index_logs(const EvaluationJob& job);
 
-/// @brief The LiDAR whose virtual scans the log holds.
+/// @brief The LiDAR whose virtual scans the log holds, labelled as the settings tell.
+/// @param wanted its label; empty: any.
 /// @throw std::runtime_error it holds none.
-[[nodiscard]] std::string find_label(const LogIndex& input, const std::string& wanted);
+[[nodiscard]] ScanLabels find_labels(const LogIndex& input, const std::string& wanted,
+                                     const Config& config);
 
 /// @brief The scans to judge by. @throw std::runtime_error there are none, or of several LiDARs.
 [[nodiscard]] const StreamInfo& reference_stream(const LogIndex& reference,

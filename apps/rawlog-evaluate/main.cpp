@@ -77,8 +77,9 @@ void add_options(CLI::App& app, Request& request) {
                "of a damaged log, take all that can be read, before and behind the damage");
   app.add_flag("--exact-emd", job.options.exact_emd,
                "the exact assignment of 2048 points beside the published EMD (slow)");
-  app.add_option("--config", request.config,
-                 "settings that the log was densified with, for row `paper` and for `scan_time`");
+  app.add_option(
+      "--config", request.config,
+      "settings that the log was densified with, for row `paper`, `scan_time` and `output_label`");
   app.add_option("--set", request.sets, "one such setting, as for rawlog-densify")
       ->expected(1)
       ->take_all();
@@ -143,8 +144,6 @@ Comparison compare(Request& request, const std::optional<RunReport>& run, bool w
   job.options.labels.max_range_m = job.options.max_range_m;
   job.options.labels.all_around = job.options.all_around;
   if (!request.protocol.empty()) job.options.protocol = find_protocol(request.protocol);
-  request.sets.emplace_back("preset=paper");
-  load_settings(job.paper, request.config, request.sets, "");
   if (run) job.paper.config.timing.camera_time_offset_ms = run->camera_time_offset_ms;
   Comparison comparison;
   if (with_pictures)
@@ -170,6 +169,8 @@ void evaluate(Request& request) {
     throw std::runtime_error(
         "--html needs gnuplot for its plots, and it is not installed (Debian: gnuplot-nox)");
   Outputs outputs(request);
+  request.sets.emplace_back("preset=paper");
+  load_settings(request.job.paper, request.config, request.sets, "");
   PageContent content;
   content.input = request.inputs.front();
   if (!request.report.empty()) content.run = load_run_report(request.report);
@@ -177,18 +178,18 @@ void evaluate(Request& request) {
     content.comparison = compare(request, content.run, wants_page);
   if (const auto& comparison = content.comparison)
     std::cout << to_table(comparison->result, comparison->figures, comparison->protocol);
-  if (content.run && content.comparison) {
-    const LogResult& result = content.comparison->result;
-    std::cout << to_text(calibration_of(result, *content.run));
-  }
+  if (const auto& comparison = content.comparison)
+    if (const auto& ours = comparison->result.labels[Row::ours])
+      std::cout << to_text(calibration_of(*ours));
   if (content.run) std::cout << to_text(running_time_of(*content.run));
   if (!request.json.empty()) outputs.write_json(request.json, *content.comparison);
   if (!request.csv.empty())
     outputs.write(request.csv, to_csv(content.comparison->result, content.comparison->figures));
   if (!wants_page) return;
+  const LogIndex index = index_streams({request.inputs.front(), request.job.accept_truncated});
   content.coverage =
-      measure_coverage(index_streams({request.inputs.front(), request.job.accept_truncated}),
-                       request.job.label, 1e-3 * request.tolerance_ms);
+      measure_coverage(index, find_labels(index, request.job.label, request.job.paper.config),
+                       1e-3 * request.tolerance_ms);
   outputs.write(request.html, to_page(content));
 }
 

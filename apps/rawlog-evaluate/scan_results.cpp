@@ -31,7 +31,6 @@ void transfer_scan(Transfer& transfer, Scan& scan) {
   transfer(scan.stamp);
   transfer(scan.key_stamp);
   transfer(scan.dt);
-  transfer(scan.ego_found);
   transfer(scan.interpolated);
   transfer(scan.points_told);
   transfer(scan.clouds);

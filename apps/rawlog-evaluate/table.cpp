@@ -1,35 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the lidar_upsampling authors
-#include <array>
-#include <cmath>
-#include <cstdarg>
-#include <cstdio>
-
 #include "report.h"
+#include "text_table.h"
 
 namespace lidar_upsampling {
 
 namespace {
-
-__attribute__((format(printf, 1, 2))) std::string formatted(const char* format, ...) {
-  std::array<char, 256> line{};
-  va_list arguments;
-  va_start(arguments, format);
-  std::vsnprintf(line.data(), line.size(), format, arguments);
-  va_end(arguments);
-  return line.data();
-}
-
-/// A figure, or a dash where there is none.
-std::string cell(bool known, double value, int digits = 3, int width = 9) {
-  return known ? formatted("%*.*f", width, digits, value) : formatted("%*s", width, "-");
-}
-
-std::string heading(const std::string& title, const std::vector<const char*>& columns) {
-  std::string line = formatted("\n%-40s", title.c_str());
-  for (const char* column : columns) line += formatted(" %8s", column);
-  return line + "\n";
-}
 
 std::string object_block(const char* title, const Figures& figures,
                          ObjectFigures RowFigures::*which) {
@@ -39,7 +15,7 @@ std::string object_block(const char* title, const Figures& figures,
     const ObjectFigures& objects = figures.rows[row].*which;
     const ErrorSummary& position = objects.position_m;
     if (position.count == 0) continue;
-    block += formatted("  %-38s%9d", name_of(row), position.count) + cell(true, position.mean) +
+    block += named(name_of(row)) + formatted("%9d", position.count) + cell(true, position.mean) +
              cell(true, position.median) + cell(true, position.p95) +
              cell(objects.depth_percent.count > 0, objects.depth_percent.mean, 2) +
              cell(true, objects.velocity_mps.mean, 2) + cell(true, objects.yaw_deg.mean, 2) + "\n";
@@ -53,7 +29,7 @@ std::string scan_block(const char* title, const Figures& figures, ErrorSummary R
   for (const Row row : kRows) {
     const ErrorSummary& errors = figures.rows[row].*which;
     if (errors.count > 0)
-      block += formatted("  %-38s%9d", name_of(row), errors.count) + cell(true, errors.mean) +
+      block += named(name_of(row)) + formatted("%9d", errors.count) + cell(true, errors.mean) +
                cell(true, errors.median) + cell(true, errors.p95) + "\n";
   }
   return block;
@@ -66,8 +42,7 @@ std::string flow_block(const Figures& figures) {
   for (const Row row : kRows) {
     const RowFigures& f = figures.rows[row];
     if (f.epe_three_way_m.count == 0) continue;
-    block += formatted("  %-38s", name_of(row)) +
-             cell(f.epe_dynamic_m.count > 0, f.epe_dynamic_m.mean) +
+    block += named(name_of(row)) + cell(f.epe_dynamic_m.count > 0, f.epe_dynamic_m.mean) +
              cell(f.epe_static_m.count > 0, f.epe_static_m.mean) +
              cell(f.epe_background_m.count > 0, f.epe_background_m.mean) +
              cell(true, f.epe_three_way_m.mean) + "\n";
@@ -81,7 +56,7 @@ std::string chamfer_block(const Figures& figures) {
     const RowFigures& f = figures.rows[row];
     if (f.chamfer_m.count == 0) continue;
     const bool seen = f.view_chamfer_m.count > 0;
-    block += formatted("  %-38s", name_of(row)) + cell(true, f.chamfer_m.mean, 4) +
+    block += named(name_of(row)) + cell(true, f.chamfer_m.mean, 4) +
              cell(true, f.chamfer_m2.mean, 4) + cell(seen, f.view_chamfer_m.mean, 4) +
              cell(seen, f.view_chamfer_m2.mean, 4) + "\n";
   }
@@ -95,8 +70,7 @@ std::string chamfer_block(const Figures& figures) {
 
 std::string edges_of(const Bin& bin, const std::string& unit) {
   if (unit == "s") return formatted("%.0f ms", 1e3 * bin.mean_key);
-  if (std::isinf(bin.to)) return formatted("%.0f %s and more", bin.from, unit.c_str());
-  return formatted("%.0f to %.0f %s", bin.from, bin.to, unit.c_str());
+  return edges_of(bin.from, bin.to, unit);
 }
 
 namespace {
@@ -108,7 +82,7 @@ std::string bin_block(const Binned& binned) {
       std::string(binned.moving ? "moving" : "static") + " objects by " + binned.key + ", mean m",
       {"count", "hold", "ego", "const-v", "paper", "ours"});
   for (const Bin& bin : binned.bins) {
-    block += formatted("  %-38s%9d", edges_of(bin, binned.unit).c_str(), bin.rows[Row::ours].count);
+    block += named(edges_of(bin, binned.unit)) + formatted("%9d", bin.rows[Row::ours].count);
     for (const Row row : rows) block += cell(bin.rows[row].count > 0, bin.rows[row].mean);
     block += "\n";
   }
@@ -117,9 +91,9 @@ std::string bin_block(const Binned& binned) {
 
 std::string sampled_line(const std::string& name, const SampledFigures& f) {
   const bool exact = f.exact_emd_m2.mean > 0;
-  return formatted("  %-38s", name.c_str()) + cell(true, f.chamfer_m2.mean) +
-         cell(true, f.chamfer_m2.spread) + cell(true, f.emd_m2.mean, 2) +
-         cell(true, f.emd_m2.spread, 2) + cell(true, f.chamfer_m.mean) + cell(true, f.emd_m.mean) +
+  return named(name) + cell(true, f.chamfer_m2.mean) + cell(true, f.chamfer_m2.spread) +
+         cell(true, f.emd_m2.mean, 2) + cell(true, f.emd_m2.spread, 2) +
+         cell(true, f.chamfer_m.mean) + cell(true, f.emd_m.mean) +
          cell(exact, f.exact_emd_m2.mean) + "\n";
 }
 
@@ -134,9 +108,8 @@ std::string sampled_block(const Figures& figures, const Protocol& protocol) {
       block += sampled_line(std::string(name_of(row)) + ", without outliers", f.sampled_inliers);
   }
   for (const Published& row : protocol.published)
-    block += formatted("  %-38s", (std::string(row.method) + " *").c_str()) +
-             cell(true, row.figures[0]) + cell(false, 0) + cell(true, row.figures[1], 2) +
-             cell(false, 0) + "\n";
+    block += named(std::string(row.method) + " *") + cell(true, row.figures[0]) + cell(false, 0) +
+             cell(true, row.figures[1], 2) + cell(false, 0) + "\n";
   return block + "  * as published: other frames, machines and horizons\n";
 }
 

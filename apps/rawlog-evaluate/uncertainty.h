@@ -5,15 +5,14 @@
 #include <string>
 #include <vector>
 
-#include "evaluation.h"
-#include "page/run_report.h"
+#include "label_score.h"
 
 namespace lidar_upsampling {
 
 /// How true the reported covariances of one kind of answer are: the position error squared, in
 /// units of its covariance, over its three dimensions. Its mean is 1 where they are true
 /// (Bar-Shalom et al., Estimation with Applications to Tracking and Navigation, section 5.4: NEES),
-/// 95 % lie below 7.81 / 3.
+/// 95 % lie below 7.81 / 3. Labels that err themselves add to it.
 struct Calibration {
   std::string status;  ///< of the object, as in the report
   int count = 0;
@@ -23,10 +22,8 @@ struct Calibration {
   double median_error = 0;  ///< m
 };
 
-/// @brief Joins the errors of a log's objects with their rows in the densification's report.
-/// @return by status; empty without truth, whose own errors would be taken for ours.
-[[nodiscard]] std::vector<Calibration> calibration_of(const LogResult& log,
-                                                      const RunReport& report);
+/// @return by status; every row of the report that lies on a labelled object counts.
+[[nodiscard]] std::vector<Calibration> calibration_of(const LabelScore& score);
 
 [[nodiscard]] std::string to_text(const std::vector<Calibration>& calibrations);
 

@@ -110,6 +110,14 @@ TEST_F(Evaluation, every_row_is_there_and_only_the_true_motion_is_free_of_error)
             summary["hold"]["sampled"]["chamfer_m2"]["mean"]);
 }
 
+TEST_F(Evaluation, virtual_scans_are_found_by_the_label_that_they_were_given) {
+  densify(folder_, "--set output_label=DENSE");
+  const auto errors = evaluate(folder_, "truth.rawlog", "--no-chamfer --set output_label=DENSE");
+  EXPECT_EQ(errors["virtual_label"], "DENSE");
+  EXPECT_GE(errors["num_compared"], 4);
+  EXPECT_GT(errors["summary"]["paper"]["moving_objects_m"]["count"], 0);
+}
+
 TEST(EvaluationOfSweeps, what_was_straightened_is_judged_by_scans_that_are) {
   const TestFolder folder;
   simulate(folder, "[lidar]\nsweep = true\n[log]\ncarrier = velodyne\n");

@@ -9,42 +9,54 @@
 namespace lidar_upsampling {
 namespace {
 
-constexpr double kSigma = 0.02;
+constexpr double kSigma = 0.02, kHorizon_s = 0.1;
 
-struct Case {
-  LogResult log;
-  RunReport report;
-};
-
-// Objects that err as reported, but for `factor`.
-Case objects_that_err(double factor, bool has_truth = true) {
-  Case made;
-  made.log.has_truth = has_truth;
-  std::mt19937 random(3);
-  std::normal_distribution<double> error(0, factor * kSigma);
-  for (int i = 0; i < 500; ++i) {
-    ScanResult scan;
-    scan.stamp = Stamp(Stamp::duration(1000 + i));
-    ObjectResult object;
-    object.object.motion.centroid_k = {10, 2, -1};
-    const Eigen::Translation3d off(error(random), error(random), error(random));
-    object.estimates[Row::ours] = off * object.object.motion.T_lidar_t_lidar_k;
-    scan.objects.push_back(object);
-    made.log.scans.add(scan);
-    ReportedObject row;
-    row.stamp = 1000 + i;
-    row.status = "moving";
-    row.position = {10, 2, -1};
-    row.covariance = kSigma * kSigma * Eigen::Matrix3d::Identity();
-    row.sigma = kSigma;
-    made.report.objects.push_back(row);
-  }
-  return made;
+/// A car that turns while it drives, and a row that tells of its place at `place_k` of the key
+/// scan.
+LabelledInstant turning_car() {
+  LabelledInstant instant;
+  instant.dt = kHorizon_s;
+  LabelledBox car;
+  car.T_box_lidar = Pose(Eigen::Translation3d(-20, 0, 0));
+  car.size = {4, 2, 1.5};
+  car.velocity = {8, 0, 0};
+  car.speed_mps = 8;
+  car.T_lidar_t_lidar_k = Eigen::Translation3d(20.8, 0, 0) *
+                          Eigen::AngleAxisd(0.1, Eigen::Vector3d::UnitZ()) *
+                          Eigen::Translation3d(-20, 0, 0);
+  instant.boxes.push_back(car);
+  return instant;
 }
 
-TEST(Calibration, true_covariances_have_a_normalised_error_of_one) {
-  const auto [log, report] = objects_that_err(1);
-  const auto calibrations = calibration_of(log, report);
+ReportedObject row_of(const LabelledInstant& instant, const Eigen::Vector3d& place_k,
+                      const Eigen::Vector3d& error) {
+  ReportedObject row;
+  row.stamp = instant.told_at;
+  row.status = "moving";
+  row.position = *instant.boxes.front().T_lidar_t_lidar_k * place_k + error;
+  row.velocity = (row.position - place_k) / kHorizon_s;
+  row.covariance = kSigma * kSigma * Eigen::Matrix3d::Identity();
+  row.sigma = kSigma;
+  return row;
+}
+
+/// Objects in two pieces each that err as reported, but for `factor`.
+LabelScore rows_that_err(double factor) {
+  std::mt19937 random(3);
+  std::normal_distribution<double> draw(0, factor * kSigma);
+  LabelScore score;
+  for (int i = 0; i < 250; ++i) {
+    const LabelledInstant instant = turning_car();
+    std::vector<ReportedObject> rows;
+    for (const double x : {18.5, 21.})
+      rows.push_back(row_of(instant, {x, 0.5, 0.2}, {draw(random), draw(random), draw(random)}));
+    append(score, score_labels({instant}, rows, {}));
+  }
+  return score;
+}
+
+TEST(Calibration, true_covariances_have_a_normalised_error_of_one_for_every_piece) {
+  const auto calibrations = calibration_of(rows_that_err(1));
   ASSERT_EQ(calibrations.size(), 1U);
   EXPECT_EQ(calibrations[0].status, "moving");
   EXPECT_EQ(calibrations[0].count, 500);
@@ -54,16 +66,22 @@ TEST(Calibration, true_covariances_have_a_normalised_error_of_one) {
 }
 
 TEST(Calibration, covariances_that_promise_too_much_are_told_by_how_much) {
-  const auto [log, report] = objects_that_err(2);
-  const auto calibrations = calibration_of(log, report);
+  const auto calibrations = calibration_of(rows_that_err(2));
   ASSERT_EQ(calibrations.size(), 1U);
   EXPECT_NEAR(calibrations[0].mean, 4, 0.4);
   EXPECT_LT(calibrations[0].share_95, 0.75);
 }
 
-TEST(Calibration, is_not_measured_against_references_that_err_themselves) {
-  const auto [log, report] = objects_that_err(1, false);
-  EXPECT_TRUE(calibration_of(log, report).empty());
+TEST(Calibration, counts_what_has_a_covariance_and_lies_in_a_label_that_reaches_the_instant) {
+  LabelledInstant instant = turning_car();
+  ReportedObject row = row_of(instant, {20, 0, 0}, {0, 0, 0});
+  const ReportedObject beside = row_of(instant, {20, 1.2, 0}, {0, 0, 0});
+  EXPECT_EQ(score_labels({instant}, {row, beside}, {}).rows.size(), 1U);
+  row.covariance.setZero();
+  EXPECT_TRUE(score_labels({instant}, {row}, {}).rows.empty());
+  row = row_of(instant, {20, 0, 0}, {0, 0, 0});
+  instant.boxes.front().T_lidar_t_lidar_k.reset();
+  EXPECT_TRUE(score_labels({instant}, {row}, {}).rows.empty());
 }
 
 }  // namespace

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <iterator>
 #include <limits>
-#include <stdexcept>
 
 #include "lidar_upsampling/metrics/summary.h"
 #include "palette.h"
@@ -13,8 +12,6 @@
 namespace lidar_upsampling {
 
 namespace {
-
-const std::string kVirtual = "_VIRTUAL";
 
 std::vector<double> gaps_of(const std::vector<Stamp>& stamps) {
   std::vector<double> gaps;
@@ -45,18 +42,6 @@ double to_nearest(const std::vector<Stamp>& stamps, Stamp stamp) {
   if (next != stamps.begin())
     distance = std::min(distance, seconds_between(*std::prev(next), stamp));
   return distance;
-}
-
-const StreamInfo& virtual_stream(const LogIndex& index, const std::string& label) {
-  for (const StreamInfo* stream : index.of_kind(StreamKind::lidar)) {
-    const std::string& name = stream->label;
-    const bool ends = name.size() > kVirtual.size() &&
-                      name.compare(name.size() - kVirtual.size(), kVirtual.size(), kVirtual) == 0;
-    if (ends && (label.empty() || name == label + kVirtual)) return *stream;
-  }
-  throw std::runtime_error(index.path + ": holds no virtual scans (label " +
-                           (label.empty() ? "..." : label) + kVirtual +
-                           "); densify it with rawlog-densify. It holds " + labels_of(index));
 }
 
 Series gap_series(const char* name, const std::string& color, int style, const StreamCoverage& c,
@@ -107,16 +92,16 @@ HtmlTable cameras_table(const Coverage& coverage) {
 
 }  // namespace
 
-Coverage measure_coverage(const LogIndex& index, const std::string& label, double tolerance_s) {
-  const StreamInfo& dense = virtual_stream(index, label);
-  const std::string real_label = dense.label.substr(0, dense.label.size() - kVirtual.size());
+Coverage measure_coverage(const LogIndex& index, const ScanLabels& labels, double tolerance_s) {
+  const auto stamps_of = [&](const std::string& label) {
+    return index.find(label, StreamKind::lidar)->stamps;
+  };
   Coverage coverage;
-  const StreamInfo* real = index.find(real_label, StreamKind::lidar);
-  coverage.real = coverage_of("real scans, " + real_label,
-                              real != nullptr ? real->stamps : std::vector<Stamp>());
-  coverage.virtual_scans = coverage_of("virtual scans, " + dense.label, dense.stamps);
+  coverage.real = coverage_of("real scans, " + labels.real, stamps_of(labels.real));
+  coverage.virtual_scans = coverage_of("virtual scans, " + labels.dense, stamps_of(labels.dense));
   std::vector<Stamp> both = coverage.real.stamps;
-  both.insert(both.end(), dense.stamps.begin(), dense.stamps.end());
+  both.insert(both.end(), coverage.virtual_scans.stamps.begin(),
+              coverage.virtual_scans.stamps.end());
   coverage.both = coverage_of("real and virtual together", std::move(both));
   for (const StreamInfo* camera : index.of_kind(StreamKind::camera)) {
     CameraCoverage figures{camera->label, 0, 0, 0};

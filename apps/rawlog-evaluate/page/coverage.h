@@ -8,6 +8,7 @@
 
 #include "html.h"
 #include "lidar_upsampling/io/log_index.h"
+#include "log_streams.h"
 #include "plots.h"
 
 namespace lidar_upsampling {
@@ -31,10 +32,8 @@ struct Coverage {
   std::vector<CameraCoverage> cameras;
 };
 
-/// @param label of the LiDAR; empty: the one that has virtual scans.
 /// @param tolerance_s between an image and a scan of its instant.
-/// @throw std::runtime_error the log holds no virtual scans.
-[[nodiscard]] Coverage measure_coverage(const LogIndex& index, const std::string& label,
+[[nodiscard]] Coverage measure_coverage(const LogIndex& index, const ScanLabels& labels,
                                         double tolerance_s);
 
 /// Seconds from each scan to the next, over time, with and without the virtual ones.
