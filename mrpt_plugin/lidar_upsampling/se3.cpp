@@ -56,6 +56,14 @@ Pose incremented(const Twist& increment, const Pose& pose) {
   return result;
 }
 
+Matrix6d increment_at(const Eigen::Vector3d& p, const Eigen::Matrix3d& R) {
+  Matrix6d J = Matrix6d::Zero();
+  J.topLeftCorner<3, 3>() = R;
+  J.bottomLeftCorner<3, 3>() = -R * skew(p);
+  J.bottomRightCorner<3, 3>() = R;
+  return J;
+}
+
 Pose renormalized(const Pose& pose) {
   Pose result = pose;
   result.linear() = Eigen::Quaterniond(pose.linear()).normalized().toRotationMatrix();

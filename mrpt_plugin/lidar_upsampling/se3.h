@@ -27,6 +27,10 @@ using Matrix6d = Eigen::Matrix<double, 6, 6>;
 /// @brief [exp(w) | t] * pose, of increment = (w, t): unlike exp_se3, t is not turned on the way.
 [[nodiscard]] Pose incremented(const Twist& increment, const Pose& pose);
 
+/// @brief Takes an increment (w, t) to (R w, R (t + w x p)): the turn and the step of point p, in
+/// axes turned by R, to first order.
+[[nodiscard]] Matrix6d increment_at(const Eigen::Vector3d& p, const Eigen::Matrix3d& R);
+
 /// A vehicle's motion as a sensor on it makes it.
 [[nodiscard]] inline Pose between_sensors(const Pose& T_to_from_vehicle,
                                           const Pose& T_vehicle_sensor) {

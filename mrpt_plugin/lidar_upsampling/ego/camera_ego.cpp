@@ -74,14 +74,9 @@ std::optional<AbsolutePose> refine_likeliest_pose(
 // Points that may better a guess whose covariance is known: three would tell a pose, twice.
 constexpr int kEnoughBesideGuess = 6;
 
-/// Takes a left increment (w, t) in the camera frame to the lidar frame's, to first order.
+/// Takes an increment in the camera frame to the lidar frame's.
 Matrix6d lidar_from_camera_increment(const Pose& T_camera_lidar) {
-  const Eigen::Matrix3d R_lidar_camera = T_camera_lidar.linear().transpose();
-  Matrix6d J = Matrix6d::Zero();
-  J.topLeftCorner<3, 3>() = R_lidar_camera;
-  J.bottomLeftCorner<3, 3>() = -R_lidar_camera * skew(T_camera_lidar.translation());
-  J.bottomRightCorner<3, 3>() = R_lidar_camera;
-  return J;
+  return increment_at(T_camera_lidar.translation(), T_camera_lidar.linear().transpose());
 }
 
 /// W with W' W = covariance^-1.

@@ -7,11 +7,9 @@
 namespace lidar_upsampling {
 
 Matrix6d ego_error(const MotionQuestion& question) {
-  const Eigen::Matrix3d R = question.T_lidar_t_lidar_k.linear().transpose();
-  Matrix6d by_twist = Matrix6d::Zero();
-  by_twist.topLeftCorner<3, 3>() = R;
-  by_twist.bottomLeftCorner<3, 3>() = -R * skew(question.T_lidar_t_lidar_k * question.centroid);
-  by_twist.bottomRightCorner<3, 3>() = R;
+  const Pose& T_lidar_t_lidar_k = question.T_lidar_t_lidar_k;
+  const Matrix6d by_twist =
+      increment_at(T_lidar_t_lidar_k * question.centroid, T_lidar_t_lidar_k.linear().transpose());
   return by_twist * question.ego_covariance * by_twist.transpose();
 }
 

@@ -16,16 +16,10 @@ constexpr int kMaxIterations = 20;
 constexpr double kExpectedCounts = 4;  // points that the expected scatter counts as
 constexpr double kSqNearest_m = 1e-2;  // depth squared: what is nearer says nothing
 
-Eigen::Matrix3d rotation_of(const Eigen::Vector3d& w) {
-  const double angle = w.norm();
-  if (angle < 1e-12) return Eigen::Matrix3d::Identity();
-  return Eigen::AngleAxisd(angle, w / angle).toRotationMatrix();
-}
-
 /// Where each picture has the moved object: from points about the centroid to the camera's frame.
 std::vector<Eigen::Isometry3d> placed(const ImageFactor& image, const Eigen::Vector3d& centroid,
                                       const Twist& motion) {
-  const Eigen::Matrix3d R = rotation_of(motion.head<3>());
+  const Eigen::Matrix3d R = rotation_exp(motion.head<3>());
   std::vector<Eigen::Isometry3d> result;
   for (const ImageView& view : image.views) {
     Eigen::Isometry3d& T = result.emplace_back();
@@ -243,7 +237,7 @@ MotionFit fit_with_scatter(const ImageFactor& image, const Eigen::Vector3d& cent
 
 Pose motion_pose(const Twist& motion, const Eigen::Vector3d& centroid) {
   Pose T = Pose::Identity();
-  T.linear() = rotation_of(motion.head<3>());
+  T.linear() = rotation_exp(motion.head<3>());
   T.translation() = centroid + motion.tail<3>() - T.linear() * centroid;
   return T;
 }

@@ -18,11 +18,8 @@ std::optional<MotionFit> picture_motion(const std::vector<Correspondence>& corre
   MotionFit fit;
   fit.mean << turn.angle() * turn.axis(), T_mov * centroid - centroid;
   // From an increment of the camera frame to a turn and a step in the lidar's axes.
-  const Eigen::Matrix3d R = T_camera_lidar_k.linear().transpose();
-  Matrix6d by_increment = Matrix6d::Zero();
-  by_increment.topLeftCorner<3, 3>() = R;
-  by_increment.bottomLeftCorner<3, 3>() = -R * skew(pose->T_camera_source * centroid);
-  by_increment.bottomRightCorner<3, 3>() = R;
+  const Matrix6d by_increment =
+      increment_at(pose->T_camera_source * centroid, T_camera_lidar_k.linear().transpose());
   fit.covariance = by_increment * pose->covariance * by_increment.transpose();
   fit.num_inliers = pose->num_inliers;
   fit.rmse_px = pose->rmse_px;
