@@ -202,7 +202,7 @@ DensifyReport densify(const DensifyJob& job, const std::function<void(double)>& 
     const Timed writing(report, "writing");
     output.commit();
   }
-  warn_of_no_virtual_scan(report);
+  warn_of_nothing_made(job, report);
   warn_of_newer_mrpt(job.config, report);
   link_external_images(job, report);
   return report;

@@ -16,13 +16,13 @@ namespace {
 void set_key(mrpt::config::CConfigFileMemory& config, IniText& file,
              const std::string& assignment) {
   const auto equals = assignment.find('=');
-  if (equals == std::string::npos || equals == 0)
-    throw std::runtime_error("--set " + assignment +
-                             ": expected name=value, or section.name=value");
   const std::string name = assignment.substr(0, equals);
   const auto dot = name.rfind('.');
   const std::string section = dot == std::string::npos ? kMainSection : name.substr(0, dot);
   const std::string key = dot == std::string::npos ? name : name.substr(dot + 1);
+  if (equals == std::string::npos || section.empty() || key.empty())
+    throw std::runtime_error("--set " + assignment +
+                             ": expected name=value, or section.name=value");
   config.write(section, key, assignment.substr(equals + 1));
   file.line_of.erase("[" + section + "] " + key);  // what is wrong with it now is not the file's
 }

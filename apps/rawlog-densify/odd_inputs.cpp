@@ -78,7 +78,13 @@ void warn_of_unused(const DensifyJob& job, const std::set<std::string>& labels,
     warn_of_boxes(job.config.detector.csv.path, cameras, report);
 }
 
-void warn_of_no_virtual_scan(DensifyReport& report) {
+void warn_of_nothing_made(const DensifyJob& job, DensifyReport& report) {
+  const DetectorOptions& detector = job.config.detector;
+  if (detector.type == DetectorOptions::Type::csv && report.object_status.empty())
+    report.warn(
+        detector.csv.path +
+        ": no object was met in its boxes: of each scan those of the image nearest to it are "
+        "used, with that image's stamp to within detector.stamp_tolerance_ms");
   if (report.num_virtual_scans > 0) return;
   std::string cause =
       "no image lies behind a real scan and further than timing.pair_tolerance_ms from all of "

@@ -31,7 +31,8 @@ class StampWatch {
 void warn_of_unused(const DensifyJob& job, const std::set<std::string>& labels,
                     const std::set<std::string>& cameras, DensifyReport& report);
 
-/// Warns of a log of which nothing was made, and says why that may be.
-void warn_of_no_virtual_scan(DensifyReport& report);
+/// Warns of a log of which nothing was made, or of boxes that met no object, and says why that may
+/// be.
+void warn_of_nothing_made(const DensifyJob& job, DensifyReport& report);
 
 }  // namespace lidar_upsampling

@@ -135,7 +135,7 @@ DensifyReport densify_in_parts(const DensifyJob& job, const PartOptions& options
   if (!job.rows_beside.empty()) rows = std::make_shared<ReportRows>(job.rows_beside);
   DensifyReport report = joined(densify_side_by_side(job, parts, files, progress), rows);
   files.join();
-  warn_of_no_virtual_scan(report);
+  warn_of_nothing_made(job, report);
   warn_of_newer_mrpt(job.config, report);
   link_external_images(job, report);
   return report;

@@ -83,6 +83,7 @@ class LineReader {
     if (!behind.empty() && !is_comment(behind))
       fail("'" + behind + "' stands behind a section's name: it takes a line of its own");
     section_ = "[" + trimmed(line.substr(1, end - 1)) + "]";
+    if (section_ == "[]") fail("'" + line + "': there is no name between the brackets");
     note(section_, "section " + section_);
   }
 

@@ -135,6 +135,27 @@ TEST(OddInput, settings_and_boxes_of_labels_that_are_not_there_are_told) {
       contains(warning_with("no boxes", folder, "--detections " + folder / "boxes.csv"), "csv"));
 }
 
+TEST(OddInput, boxes_with_other_stamps_than_the_images_are_told) {
+  const TestFolder folder;
+  write_hand_made(folder / "in.rawlog");
+  std::ofstream(folder / "boxes.csv") << "CAM,132000000000000000,car,1,1,1,9,9\n";
+  EXPECT_TRUE(
+      contains(warning_with("no object was met", folder, "--detections " + folder / "boxes.csv"),
+               "boxes.csv"));
+}
+
+TEST(OddInput, a_setting_without_a_name_is_refused) {
+  const TestFolder folder;
+  write_hand_made(folder / "in.rawlog");
+  for (const std::string setting : {".mode=x", "mode", "=x", "klt.=3"}) {
+    const ToolResult result =
+        run_for_errors(std::string(RAWLOG_DENSIFY) + " --input " + folder / "in.rawlog" +
+                       " --output " + folder / "out.rawlog" + " --set " + setting);
+    EXPECT_EQ(result.status, 1) << setting;
+    EXPECT_TRUE(contains(result.text, "expected name=value")) << result.text;
+  }
+}
+
 TEST(OddInput, a_settings_file_is_refused_with_its_line) {
   const TestFolder folder;
   write_hand_made(folder / "in.rawlog");

@@ -42,6 +42,7 @@ TEST(IniText, a_line_that_does_nothing_is_an_error_with_its_number) {
   expect_error("[a]\nmode offline\n", "a.ini:2: 'mode offline': there is no '='");
   expect_error("[a]\n= 3\n", "a.ini:2: '= 3': there is no name");
   expect_error("[timing\nx = 1\n", "a.ini:1: '[timing': a bracket ]");
+  expect_error("[ ]\nx = 1\n", "a.ini:1: '[ ]': there is no name");
   expect_error("[a] x = 1\n", "a.ini:1: 'x = 1' stands behind");
 }
 

@@ -47,10 +47,11 @@ bool is_device_or_pipe(const std::string& path) {
 }
 
 std::string output_place(const std::string& path, bool overwrite) {
+  if (path.empty()) throw std::runtime_error("the name of an output is empty");
   const fs::path target = without_links(fs::absolute(path));
   const fs::path folder = target.parent_path();
   std::error_code error;
-  if (path.empty() || !fs::is_directory(folder, error))
+  if (!fs::is_directory(folder, error))
     throw std::runtime_error("cannot write '" + path + "': there is no folder " + folder.string());
   if (fs::exists(target, error)) {
     if (!fs::is_regular_file(target)) throw std::runtime_error(path + " is no regular file");
