@@ -26,7 +26,7 @@ LogFile log_of_external_scans(const TestFolder& folder, const std::string& name,
   for (const int number : {1, 2}) {
     const std::string file = std::to_string(number) + ".bin";
     const float point[4] = {x, 0, 0, 0};
-    std::ofstream(files + "/" + file, std::ios::binary)
+    std::ofstream(std::filesystem::path(files) / file, std::ios::binary)
         .write(reinterpret_cast<const char*>(point), sizeof point);
     CObservationPointCloud scan;
     scan.sensorLabel = "LIDAR";
