@@ -63,7 +63,7 @@ nlohmann::json row_json(const ReportRow& row) {
       {"inliers", object.num_inliers},
       {"rmse_px", object.rmse_px},
       {"position_sigma_m", position_sigma(object)},
-      {"position_covariance_m2", covariance_json(position_uncertainty(object))},
+      {"position_covariance_m2", covariance_json(object.position_covariance)},
       {"position_m", vector_json(object.T_lidar_t_lidar_k * object.centroid_lidar_k)},
       {"velocity_m_s", vector_json(velocity_of(row))},
       {"yaw_rate_rad_s", object.yaw_rate},

@@ -21,7 +21,6 @@ void transfer_object(Transfer& transfer, Motion& object) {
   transfer(object.num_inliers);
   transfer(object.rmse_px);
   transfer(object.position_covariance);
-  transfer(object.unproven_step);
 }
 
 template <typename Transfer, typename Box>

@@ -23,7 +23,6 @@ void put_in_axes(ObjectMotion& object, const Eigen::Matrix3d& R) {
   object.centroid_lidar_k = (R * object.centroid_lidar_k).eval();
   object.velocity_lidar_k = (R * object.velocity_lidar_k).eval();
   object.position_covariance = (R * object.position_covariance * R.transpose()).eval();
-  object.unproven_step = (R * object.unproven_step).eval();
 }
 
 }  // namespace

@@ -6,7 +6,9 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 
+#include "lidar_upsampling/tracks/common_errors.h"
 #include "lidar_upsampling/tracks/hypotheses.h"
 #include "lidar_upsampling/tracks/picture_motion.h"
 #include "lidar_upsampling/vision/projection.h"
@@ -113,10 +115,22 @@ MotionStatus status_of(const MotionAnswer& answer, int num_found, const Config& 
                                                              : MotionStatus::no_consensus;
 }
 
+// Of the centroid over ground, axes of the lidar frame at k; of one told to stand the second moment
+// about where it stood.
+Eigen::Matrix3d place_covariance(const MotionAnswer& answer, const MotionQuestion& question) {
+  const Eigen::Matrix3d moving = answer.moving.covariance.bottomRightCorner<3, 3>();
+  if (answer.moves) return moving;
+  const Eigen::Vector3d step = answer.moving.mean.tail<3>();
+  const double moves = 1 / (1 + std::exp(-answer.log_odds));
+  return (1 - moves) * ego_error(question).bottomRightCorner<3, 3>() +
+         moves * (moving + step * step.transpose());
+}
+
 // @param dt s, in which the answer's motion goes on. @param until_image s since the object's own
 // sight: less, if the image comes no later than that.
 ObjectMotion make_motion(const MotionAnswer& answer, const ScanObject& object,
-                         const Pose& T_lidar_t_lidar_k, double dt, double until_image) {
+                         const MotionQuestion& question, double dt, double until_image) {
+  const Pose& T_lidar_t_lidar_k = question.T_lidar_t_lidar_k;
   const MotionFit& told = answer.moves ? answer.moving : answer.parked;
   ObjectMotion motion;
   motion.class_name = object.class_name;
@@ -134,8 +148,7 @@ ObjectMotion make_motion(const MotionAnswer& answer, const ScanObject& object,
   motion.T_lidar_t_lidar_k = T_lidar_t_lidar_k * motion.T_mov;
   const Eigen::Matrix3d R = T_lidar_t_lidar_k.linear();
   if (answer.is_seen || answer.moves)
-    motion.position_covariance = R * told.covariance.bottomRightCorner<3, 3>() * R.transpose();
-  if (answer.is_seen && !answer.moves) motion.unproven_step = R * answer.moving.mean.tail<3>();
+    motion.position_covariance = R * place_covariance(answer, question) * R.transpose();
   return motion;
 }
 
@@ -183,7 +196,7 @@ std::vector<ObjectMotion> estimate_motions(const std::vector<ImageResult>& group
     const MotionAnswer answer = answer_for(track, sights, question, config);
     if (!track.settled) note_answer(track, answer, config.object_tracks.noise);
     ObjectMotion& motion = motions[i];
-    motion = make_motion(answer, object, newest.ego.T_to_from, dt, until_image);
+    motion = make_motion(answer, object, question, dt, until_image);
     motion.num_tracked = answer.num_found;
     motion.status = status_of(answer, motion.num_tracked, config);
     motion.track_id = track.id;

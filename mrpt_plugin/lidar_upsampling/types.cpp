@@ -89,12 +89,8 @@ double intersection_over_union(const Box2d& a, const Box2d& b) {
   return both > 0 ? both / (a.area() + b.area() - both) : 0;
 }
 
-Eigen::Matrix3d position_uncertainty(const ObjectMotion& object) {
-  return object.position_covariance + object.unproven_step * object.unproven_step.transpose();
-}
-
 double position_sigma(const ObjectMotion& object) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(position_uncertainty(object),
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(object.position_covariance,
                                                             Eigen::EigenvaluesOnly);
   return std::sqrt(std::max(0., axes.eigenvalues()[2]));
 }

@@ -180,11 +180,9 @@ struct ObjectMotion {
   int num_tracked = 0;                                         ///< points that KLT followed
   int num_inliers = 0;                                         ///< of them, those that agree
   double rmse_px = 0;                                          ///< of the inliers
-  /// Of the centroid at the image, m^2, in the axes of the lidar frame then; zero: not known.
+  /// Of the centroid at the image, m^2, in the axes of the lidar frame then; zero: not known. Of
+  /// one that is told to stand with how far it is off if it does not.
   Eigen::Matrix3d position_covariance = Eigen::Matrix3d::Zero();
-  /// Of one that is told to stand: where it would be if it did not, from where it is, m, in the
-  /// same axes.
-  Eigen::Vector3d unproven_step = Eigen::Vector3d::Zero();
 };
 
 /// How long a stage took for one image or scan.
@@ -227,12 +225,7 @@ struct VirtualScan {
 [[nodiscard]] const char* to_string(MotionStatus status);
 [[nodiscard]] const char* to_string(Resampling resampling);
 
-/// What the centroid may be wrong by, m^2, in the axes of the lidar frame then: its covariance, and
-/// of one that is told to stand the unproven step as well (the second moment about where it is
-/// told to be); zero: not known.
-[[nodiscard]] Eigen::Matrix3d position_uncertainty(const ObjectMotion& object);
-
-/// Its square root in the least certain direction, m; 0: not known.
+/// The square root of its position's covariance in the least certain direction, m; 0: not known.
 [[nodiscard]] double position_sigma(const ObjectMotion& object);
 
 /// @brief The middle one, of an even number the upper of both.

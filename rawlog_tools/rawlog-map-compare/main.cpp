@@ -45,6 +45,9 @@ void print_paths(const Options& options, const Reference& reference) {
             << "|---|---|---|---|---|---|---|\n";
   for (const std::string& map : options.simplemaps) {
     const PathErrors errors = errors_of_path(map, reference.T_world_vehicle);
+    if (errors.num_beyond > 0)
+      warn_of({map + ": real scans that the reference does not reach, left out of the errors: " +
+               std::to_string(errors.num_beyond)});
     std::cout << "| " << stem(map) << " | " << errors.num_real << " | " << errors.num_virtual
               << " | ";
     if (errors.num_real < 2) {

@@ -41,7 +41,6 @@ PathErrors errors_of_path(const std::string& path, const Trajectory& T_world_veh
   mrpt::maps::CSimpleMap map = map_in(path);
   PathErrors errors;
   std::optional<Pose> T_world_map;
-  int num_compared = 0;
   Eigen::Vector3d last_place = Eigen::Vector3d::Zero();
   for (std::size_t i = 0; i < map.size(); ++i) {
     const compat::Keyframe keyframe = compat::keyframe_of(map, i);
@@ -49,7 +48,11 @@ PathErrors errors_of_path(const std::string& path, const Trajectory& T_world_veh
     if (!scan) continue;
     ++(is_virtual_label(scan->sensorLabel) ? errors.num_virtual : errors.num_real);
     const auto truth = T_world_vehicle.at(scan->timestamp);
-    if (is_virtual_label(scan->sensorLabel) || !truth) continue;
+    if (is_virtual_label(scan->sensorLabel)) continue;
+    if (!truth) {
+      ++errors.num_beyond;
+      continue;
+    }
     const Pose T_map_vehicle = from_mrpt(keyframe.pose->getMeanVal());
     const Eigen::Vector3d place = truth->T_world_vehicle.translation();
     if (!T_world_map) {
@@ -62,12 +65,12 @@ PathErrors errors_of_path(const std::string& path, const Trajectory& T_world_veh
         std::abs(std::remainder(yaw_of(estimate) - yaw_of(truth->T_world_vehicle), 2 * M_PI)) /
         kDegree;
     errors.mean_m += errors.last_m;
-    ++num_compared;
     errors.length_m += (place - last_place).norm();
     last_place = place;
   }
   if (errors.num_real == 0) throw std::runtime_error(path + ": holds no real scan");
-  if (num_compared < errors.num_real)
+  const int num_compared = errors.num_real - errors.num_beyond;
+  if (num_compared < errors.num_beyond || num_compared == 0)
     throw std::runtime_error(
         path + ": the reference tells the true places of " + std::to_string(num_compared) +
         " of its " + std::to_string(errors.num_real) + " real scans; is it of another time?");

@@ -12,6 +12,7 @@ namespace lidar_upsampling::maps {
 /// could not match are not in the simplemap.
 struct PathErrors {
   int num_real = 0, num_virtual = 0;
+  int num_beyond = 0;   ///< real scans that the true way does not reach: not in the figures
   double length_m = 0;  ///< of the true way
   double mean_m = 0;    ///< of the distances to the true places, in the plane
   double last_m = 0;
@@ -20,8 +21,8 @@ struct PathErrors {
 
 /// @brief How far a SLAM program's poses lie from the true ones.
 /// @param path a simplemap, as icp-slam and rbpf-slam write it.
-/// @throw std::runtime_error no such file, no real scan in it, or one that the true way
-/// does not reach.
+/// @throw std::runtime_error no such file, no real scan in it, or the true way does not
+/// reach the half of them.
 [[nodiscard]] PathErrors errors_of_path(const std::string& path, const Trajectory& T_world_vehicle);
 
 }  // namespace lidar_upsampling::maps

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the lidar_upsampling authors
 #include <map>
+#include <optional>
 #include <sstream>
 
+#include "lidar_upsampling/io/rawlog_stream.h"
 #include "rawlog-map-compare/voxel_set.h"
 #include "stock_maps.h"
 
@@ -88,6 +90,22 @@ TEST_F(MapCompare, tells_how_far_a_slam_programs_path_is_off) {
   EXPECT_NEAR(row[2], 3.2, 0.05);  // of the true way
   EXPECT_GT(row[4], 0);            // the odometry's noise, at the end
   EXPECT_LT(row[4], 0.3);
+  // Of a reference that ends before the path does, what it reaches is judged.
+  RawlogReader reader(folder_ / "in.rawlog");
+  RawlogWriter writer(folder_ / "start.rawlog", false);
+  std::optional<Stamp> first;
+  while (const auto entry = reader.next()) {
+    const auto stamp = stamp_of(*entry);
+    if (!first) first = stamp;
+    if (!stamp || seconds_between(*first, *stamp) < 0.25) writer.write(*entry);
+  }
+  writer.commit();
+  const ToolResult of_start =
+      run(std::string(RAWLOG_MAP_COMPARE) + " --reference " + folder_ / "start.rawlog" +
+          " --simplemap " + file_ending_in(folder_.path(), ".simplemap") + " 2>&1");
+  ASSERT_EQ(of_start.status, 0) << of_start.text;
+  EXPECT_TRUE(contains(of_start.text, "left out of the errors: ")) << of_start.text;
+  EXPECT_LT(table(of_start.text).at("_finalmap_")[2], 2.7);
 }
 
 TEST_F(MapCompare, nothing_to_compare_is_wrong_usage) {
