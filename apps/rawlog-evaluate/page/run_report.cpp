@@ -68,6 +68,7 @@ ReportedObject reported_object(const Json& row, bool in_view) {
   object.track = row.at("track").get<int>();
   object.points = row.at("points").get<int>();
   object.moving = row.at("moving").get<bool>();
+  object.yaw_rate = row.at("yaw_rate_rad_s").get<double>();
   object.sigma = row.at("position_sigma_m").get<double>();
   for (int i = 0; i < 3; ++i) {
     object.position[i] = row.at("position_m").at(i).get<double>();

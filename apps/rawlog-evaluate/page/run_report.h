@@ -43,6 +43,7 @@ struct ReportedObject {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();    ///< of its centroid, lidar frame, m
   Eigen::Vector3d middle = Eigen::Vector3d::Zero();      ///< of its box, lidar frame, m
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();    ///< there, over ground, lidar frame, m/s
+  double yaw_rate = 0;                                   ///< rad/s about its vertical axis
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< of the centroid, m^2; zero: not known
   double sigma = 0;                                      ///< m, worst direction
 };
