@@ -68,8 +68,9 @@ TEST(LidarUpsampler, moving_cars_are_told_from_parked_ones) {
 TEST(LidarUpsampler, what_stands_is_surer_of_its_place_than_a_picture_tells) {
   StreetRun street;
   LidarUpsampler upsampler{moving_points()};
+  const auto scans = street.run(upsampler);
   std::vector<double> sigmas;
-  for (const ObjectMotion& object : street.run(upsampler).back().objects)
+  for (const ObjectMotion& object : scans.back().objects)
     if (object.status == MotionStatus::stationary) sigmas.push_back(position_sigma(object));
   ASSERT_FALSE(sigmas.empty());
   EXPECT_GT(*std::min_element(sigmas.begin(), sigmas.end()), 0);
