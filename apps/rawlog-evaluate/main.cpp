@@ -176,11 +176,11 @@ void evaluate(Request& request) {
   if (!request.report.empty()) content.run = load_run_report(request.report);
   if (!request.references.empty() || !request.truth_objects.empty())
     content.comparison = compare(request, content.run, wants_page);
-  if (const auto& comparison = content.comparison)
+  if (const auto& comparison = content.comparison) {
     std::cout << to_table(comparison->result, comparison->figures, comparison->protocol);
-  if (const auto& comparison = content.comparison)
     if (const auto& ours = comparison->result.labels[Row::ours])
       std::cout << to_text(calibration_of(*ours));
+  }
   if (content.run) std::cout << to_text(running_time_of(*content.run));
   if (!request.json.empty()) outputs.write_json(request.json, *content.comparison);
   if (!request.csv.empty())

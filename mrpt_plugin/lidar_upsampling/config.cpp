@@ -14,6 +14,7 @@
 #include "lidar_upsampling/nearest_word.h"
 #include "lidar_upsampling/settings.h"
 #include "lidar_upsampling/text.h"
+#include "lidar_upsampling/virtual_label.h"
 
 namespace lidar_upsampling {
 namespace {
@@ -216,7 +217,7 @@ void Config::saveToConfigFile(CConfigFileBase& target, const std::string& main_s
 }
 
 std::string Config::virtual_label(const std::string& real_label) const {
-  return output_label.empty() ? real_label + "_VIRTUAL" : output_label;
+  return output_label.empty() ? real_label + kVirtualEnding : output_label;
 }
 
 void check_sections(const CConfigFileBase& source) {

@@ -9,7 +9,7 @@
 
 #include "lidar_upsampling/io/carriers.h"
 #include "lidar_upsampling/io/log_index.h"
-#include "lidar_upsampling/io/virtual_label.h"
+#include "lidar_upsampling/virtual_label.h"
 
 namespace lidar_upsampling::exporting {
 namespace {

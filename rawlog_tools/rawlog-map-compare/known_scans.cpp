@@ -11,9 +11,9 @@
 #include "lidar_upsampling/io/carriers.h"
 #include "lidar_upsampling/io/log_index.h"
 #include "lidar_upsampling/io/rawlog_stream.h"
-#include "lidar_upsampling/io/virtual_label.h"
 #include "lidar_upsampling/registration/scan_registration.h"
 #include "lidar_upsampling/types.h"
+#include "lidar_upsampling/virtual_label.h"
 
 namespace lidar_upsampling::maps {
 namespace {

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "known_scans.h"
-#include "lidar_upsampling/io/virtual_label.h"
+#include "lidar_upsampling/virtual_label.h"
 
 namespace lidar_upsampling::maps {
 namespace {

@@ -13,8 +13,8 @@
 #include "lidar_upsampling/io/images.h"
 #include "lidar_upsampling/io/reading_guard.h"
 #include "lidar_upsampling/io/unpacker.h"
-#include "lidar_upsampling/io/virtual_label.h"
 #include "lidar_upsampling/units.h"
+#include "lidar_upsampling/virtual_label.h"
 
 namespace lidar_upsampling::maps {
 namespace {

@@ -3,10 +3,9 @@
 #include "running_time.h"
 
 #include <algorithm>
-#include <array>
-#include <cstdio>
 
 #include "html.h"
+#include "text_table.h"
 
 namespace lidar_upsampling {
 
@@ -126,14 +125,8 @@ HtmlTable stages_table(const RunReport& report) {
 }
 
 std::string line_of(const std::string& name, double ours, std::optional<double> published) {
-  std::array<char, 128> line{};
-  std::snprintf(line.data(), line.size(), "  %-38s%9.1f", name.c_str(), ours);
-  std::string text = line.data();
-  if (published) {
-    std::snprintf(line.data(), line.size(), "%12.0f", *published);
-    text += line.data();
-  }
-  return text + "\n";
+  return named(name) + cell(true, ours, 1) + (published ? formatted("%12.0f", *published) : "") +
+         "\n";
 }
 
 std::string load_note(const RunReport& report) {
@@ -171,12 +164,9 @@ std::string to_text(const RunningTime& time) {
   for (const TimedComponent& component : time.components)
     text += line_of(component.name, component.ms, component.published);
   for (const TimedComponent& part : time.log) text += line_of(part.name, part.ms, {});
-  for (const PublishedTime& other : time.others) {
-    std::array<char, 128> line{};
-    std::snprintf(line.data(), line.size(), "  %-38s%9s%12.0f\n",
-                  (std::string(other.method) + ", total").c_str(), "-", other.ms);
-    text += line.data();
-  }
+  for (const PublishedTime& other : time.others)
+    text += named(std::string(other.method) + ", total") + cell(false, 0) +
+            formatted("%12.0f\n", other.ms);
   return text + "  " + kNote + "\n";
 }
 

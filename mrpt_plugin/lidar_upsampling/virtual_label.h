@@ -6,10 +6,13 @@
 
 namespace lidar_upsampling {
 
+/// What follows a LiDAR's label in that of its virtual scans.
+constexpr const char* kVirtualEnding = "_VIRTUAL";
+
 /// Whether virtual scans are labelled so, unless `output_label` tells otherwise: a real label,
 /// which may be empty, and an ending.
 [[nodiscard]] inline bool is_virtual_label(const std::string& label) {
-  const std::string ending = "_VIRTUAL";
+  const std::string ending = kVirtualEnding;
   return label.size() >= ending.size() &&
          label.compare(label.size() - ending.size(), ending.size(), ending) == 0;
 }
