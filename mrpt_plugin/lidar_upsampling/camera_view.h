@@ -34,6 +34,7 @@ struct CameraView {
 
   Camera camera;
   std::shared_ptr<const Picture> last;
+  std::shared_ptr<const Picture> of_key;  ///< taken about when the key scan was; null: none yet
   std::shared_ptr<const Picture>
       anchor;            ///< where the key scan's points were put; null: nowhere yet
   double anchor_dt = 0;  ///< s from the key scan to the anchor

@@ -60,7 +60,10 @@ std::optional<VirtualScan> LidarUpsampler::insert_scan(LidarScan scan) {
   track_of_.clear();
   is_taken_up_ = false;
   if (!detector_) take_up(nullptr);
-  for (auto& [label, view] : views_) view->anchor.reset();
+  for (auto& [label, view] : views_) {
+    view->of_key.reset();
+    view->anchor.reset();
+  }
   return waiting;
 }
 
@@ -73,10 +76,13 @@ std::optional<VirtualScan> LidarUpsampler::insert_image(const CameraImage& image
 
   CameraView& view = view_of(image.camera);
   const auto picture = make_picture(image, instant, config_.klt, timing_);
-  if (key_ && ms_between(key_->scan.stamp, instant) <= config_.timing.pair_tolerance_ms)
-    start(view, picture);
-  else if (is_due(instant))
+  if (key_ && ms_between(key_->scan.stamp, instant) <= config_.timing.pair_tolerance_ms) {
+    view.of_key = picture;
+    take_up(picture.get());
+    if (effort == Effort::full) start(view);
+  } else if (is_due(instant)) {
     process(view, *picture, effort);
+  }
   view.last = picture;
 
   const std::size_t cameras = std::max(expected_cameras_, views_.size());
@@ -157,18 +163,20 @@ bool LidarUpsampler::is_due(Stamp instant) const {
          (next == expected_scans_.begin() || seconds_between(*std::prev(next), instant) >= gap_s);
 }
 
-void LidarUpsampler::start(CameraView& view, const std::shared_ptr<const Picture>& anchor) {
-  if (!is_taken_up_) take_up(anchor.get());
+void LidarUpsampler::start(CameraView& view) {
   const Stopwatch watch(timing_, "points to follow");
-  start_view(view, anchor, {*key_, store_, track_of_}, ego_step(anchor->instant), config_);
+  start_view(view, view.of_key, {*key_, store_, track_of_}, ego_step(view.of_key->instant),
+             config_);
 }
 
 void LidarUpsampler::process(CameraView& view, const Picture& picture, Effort effort) {
-  const bool anchor_is_near =
+  const bool last_is_near =
       view.last && std::abs(seconds_between(key_->scan.stamp, view.last->instant)) <=
                        1e-3 * config_.timing.max_anchor_gap_ms;
-  if (!view.anchor && !anchor_is_near) return;
-  if (!view.anchor) start(view, view.last);
+  if (!view.of_key && last_is_near) view.of_key = view.last;
+  if (!view.of_key) return;
+  take_up(view.of_key.get());
+  if (!view.anchor && effort == Effort::full) start(view);
 
   ImageResult result;
   result.stamp = picture.image.stamp;

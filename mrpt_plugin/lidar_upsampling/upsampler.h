@@ -80,7 +80,7 @@ class LidarUpsampler {
  private:
   [[nodiscard]] CameraView& view_of(const Camera& camera);
   [[nodiscard]] bool is_due(Stamp instant) const;
-  void start(CameraView& view, const std::shared_ptr<const Picture>& anchor);
+  void start(CameraView& view);
   void process(CameraView& view, const Picture& picture, Effort effort);
   [[nodiscard]] VirtualScan compose(ScanMotion motion);
   // Ego-motion (upsampler_ego.cpp).

@@ -153,6 +153,7 @@ void LidarUpsampler::expect(LidarScan scan) {
 
 // A detector's boxes take the place of the clusters, on the picture that shows the scan.
 void LidarUpsampler::take_up(const Picture* anchor) {
+  if (is_taken_up_) return;
   const Stopwatch watch(timing_, "tracks");
   if (detector_ && anchor != nullptr) {
     const Pose T_camera_lidar =

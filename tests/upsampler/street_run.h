@@ -142,9 +142,10 @@ class StreetRun {
     };
     for (const Event& event : events) {
       if (event.camera >= 0) {
-        take(
-            upsampler.insert_image(picture_at(event.camera, event.stamp),
-                                   event.stamp < hurried_from ? Effort::full : Effort::prediction));
+        take(upsampler.insert_image(picture_at(event.camera, event.stamp),
+                                    event.stamp < hurried_from || event.stamp > hurried_until
+                                        ? Effort::full
+                                        : Effort::prediction));
         continue;
       }
       for (; with_next_scans && num_expected < scans.size() &&
@@ -159,7 +160,7 @@ class StreetRun {
 
   sim::Scenario scenario;
   sim::World world;
-  Stamp hurried_from = Stamp::max();
+  Stamp hurried_from = Stamp::max(), hurried_until = Stamp::max();
 
  private:
   std::vector<sim::CameraRenderer> renderers_;

@@ -148,6 +148,25 @@ TEST(LidarUpsampler, in_a_hurry_objects_go_on_as_they_were_seen_to_move) {
                           }),
             2);
   EXPECT_LT(point_errors(street, scans.back()).moving, 0.15);
+  for (const VirtualScan* scan : {&scans[8], &scans[9]})
+    for (const StageTime& time : scan->timing)
+      EXPECT_STRNE(time.stage, "points to follow") << "nobody will look for them";
+}
+
+TEST(LidarUpsampler, after_a_hurry_the_first_image_with_time_is_looked_at) {
+  StreetRun street;
+  LidarUpsampler with_time{moving_points()}, upsampler{moving_points()};
+  const auto at_leisure = street.run(with_time);
+  constexpr double kLastScan_s = 0.4;
+  street.hurried_from = shifted(street_begin(), kLastScan_s - 0.001);
+  street.hurried_until = shifted(street_begin(), kLastScan_s + 0.05);
+  const auto scans = street.run(upsampler);
+  ASSERT_EQ(scans.size(), 10U);
+  EXPECT_EQ(upsampler.num_hurried(), 1U);
+  EXPECT_TRUE(moving_objects(scans[8]).empty());
+  EXPECT_FALSE(moving_objects(scans[9]).empty());
+  EXPECT_NEAR(point_errors(street, scans[9]).moving, point_errors(street, at_leisure[9]).moving,
+              0.005);
   EXPECT_LT(point_errors(street, scans.back()).standing, 0.02);
 }
 
