@@ -90,6 +90,34 @@ TEST(TrackState, learns_its_velocity_from_one_step) {
   EXPECT_LT(std::sqrt(after.covariance(3, 3)), 0.5);
 }
 
+TEST(TrackState, follows_a_step_far_off_less_where_a_few_points_have_told_it) {
+  const TrackState state = predicted(state_of(10, 0, 0), shifted(kStart, 0.1), {});
+  PlanarStep far_off;
+  far_off.mean << state.mean[0] + 1, state.mean[1], 0;
+  far_off.covariance.diagonal().setConstant(0.01);
+  PlanarStep by_few = far_off, near = by_few;
+  by_few.degrees_of_freedom = near.degrees_of_freedom = 2;
+  near.mean[0] = state.mean[0] + 0.1;
+  const auto gain = [&](const PlanarStep& step) {
+    return (updated(state, step).mean[0] - state.mean[0]) / (step.mean[0] - state.mean[0]);
+  };
+  EXPECT_LT(gain(by_few), 0.7 * gain(far_off));
+  EXPECT_NEAR(gain(near), gain(far_off), 0.01 * gain(far_off));
+}
+
+TEST(TrackState, is_likelier_far_away_where_its_scale_is_little_known) {
+  const Eigen::Matrix2d scale = Eigen::Vector2d(0.04, 0.01).asDiagonal();
+  const Eigen::Vector2d far(0.8, 0), near(0.1, 0.05);
+  EXPECT_NEAR(student_density(near, scale, 1e6), gaussian_density(near, scale), 1e-4);
+  EXPECT_GT(student_density(far, scale, 2), 10 * gaussian_density(far, scale));
+  double sum = 0;
+  constexpr double kStep_m = 0.02, kReach_m = 10;
+  for (double x = -kReach_m; x < kReach_m; x += kStep_m)
+    for (double y = -kReach_m; y < kReach_m; y += kStep_m)
+      sum += student_density({x, y}, scale, 3) * kStep_m * kStep_m;
+  EXPECT_NEAR(sum, 1, 0.01);
+}
+
 TEST(TrackState, takes_a_finished_estimate_as_it_takes_a_measurement) {
   const TrackState before = predicted(new_track_state(kStart, {}), shifted(kStart, 0.1), {});
   const TrackState measured = updated(before, seen_at(1, 0.2, 0.1));

@@ -56,8 +56,8 @@ std::optional<PlanarStep> step_of(const ObjectRegistration& registration, const 
   const Eigen::Vector3d centroid = mean_of(scans.now.points());
   const Eigen::Vector3d moved = centroid - T_mov_k.inverse() * centroid;
   if (std::abs(moved.z()) > kMaxRise_m) return {};
-  const double sigma =
-      sigma_m(registration.residual_m, registration.num_points / scans.points_per_observation);
+  const double num_observations = registration.num_points / scans.points_per_observation;
+  const double sigma = sigma_m(registration.residual_m, num_observations);
   const Eigen::Matrix2d turn = R_rest_lidar_k.topLeftCorner<2, 2>();
   PlanarStep step;
   step.mean << (R_rest_lidar_k * moved).head<2>(),
@@ -65,6 +65,7 @@ std::optional<PlanarStep> step_of(const ObjectRegistration& registration, const 
   step.covariance.topLeftCorner<2, 2>() =
       sigma * sigma * Eigen::Matrix2d::Identity() + turn * registration.slack * turn.transpose();
   step.covariance(2, 2) = kYaw * kYaw;
+  step.degrees_of_freedom = std::max(1., 2 * num_observations - 3);  // level; less what is told
   return step;
 }
 

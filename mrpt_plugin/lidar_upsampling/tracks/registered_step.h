@@ -23,7 +23,8 @@ struct ObjectScans {
   const SeenSpace* seen_now = nullptr;     ///< needs no counterpart there; null: not known
 };
 
-/// @brief The step over ground between two real scans, by registration of the object's points.
+/// @brief The step over ground between two real scans, by registration of the object's points. A
+/// few points tell little of how well it is known.
 /// @param R_rest_lidar_k axes that the step is told in.
 /// @return none if it is not clear.
 [[nodiscard]] std::optional<PlanarStep> registered_step(const ObjectScans& scans,

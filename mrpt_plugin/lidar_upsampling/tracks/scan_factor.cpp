@@ -138,9 +138,10 @@ class StepLikelihoods {
   StepLikelihoods(const PlanarStep& step, double locked, const TrackOptions& options)
       : d_(step.mean.head<2>()),
         R_(step.covariance.topLeftCorner<2, 2>()),
+        freedom_(step.degrees_of_freedom),
         share_(options.outlier_share),
         astray_(options.outlier_share * options.outlier_density),
-        stands_(gaussian_density(d_, R_ + kCreep_m * kCreep_m * Eigen::Matrix2d::Identity())),
+        stands_(density(d_, kCreep_m * kCreep_m * Eigen::Matrix2d::Identity())),
         locked_(locked) {}
 
   [[nodiscard]] double parked() const {
@@ -148,8 +149,8 @@ class StepLikelihoods {
   }
   /// @param course at the second sight.
   [[nodiscard]] double moving(const TrackState& course) const {
-    return (1 - share_) * gaussian_density(d_ - course.mean.head<2>(),
-                                           R_ + course.covariance.topLeftCorner<2, 2>()) +
+    return (1 - share_) *
+               density(d_ - course.mean.head<2>(), course.covariance.topLeftCorner<2, 2>()) +
            stuck() + astray_;
   }
   /// Of what moves, with a wrong registration.
@@ -157,9 +158,15 @@ class StepLikelihoods {
 
  private:
   static constexpr double kCreep_m = 0.01;  // of what stands: points are this coarse
+
+  [[nodiscard]] double density(const Eigen::Vector2d& astray,
+                               const Eigen::Matrix2d& expected) const {
+    return student_density(astray, R_ + expected, freedom_);
+  }
+
   Eigen::Vector2d d_;
   Eigen::Matrix2d R_;
-  double share_, astray_, stands_, locked_;
+  double freedom_, share_, astray_, stands_, locked_;
 };
 
 /// What the scans tell of the step, the ego-motion's error included.
@@ -183,8 +190,9 @@ double density_of_locked(const ObjectTrack& track, const Faces& faces, const Pla
                          const Pose& T_rest_lidar) {
   const Eigen::Vector3d with_us =
       T_rest_lidar * (track.T_rest_lidar.inverse() * track.centroid_rest) - track.centroid_rest;
-  const double density = gaussian_density(step.mean.head<2>() - with_us.head<2>(),
-                                          step.covariance.topLeftCorner<2, 2>());
+  const double density =
+      student_density(step.mean.head<2>() - with_us.head<2>(),
+                      step.covariance.topLeftCorner<2, 2>(), step.degrees_of_freedom);
   const Eigen::Vector2d ahead = level_axes(T_rest_lidar.linear()).transpose() * with_us.head<2>();
   if (ahead.norm() < 1e-3) return density;
   return density * (1 - faces.share_across(ahead.normalized()));

@@ -83,6 +83,13 @@ double gaussian_density(const Eigen::Vector2d& astray, const Eigen::Matrix2d& co
          (2 * M_PI * std::sqrt(covariance.determinant()));
 }
 
+double student_density(const Eigen::Vector2d& astray, const Eigen::Matrix2d& covariance,
+                       double degrees_of_freedom) {
+  const double sq = astray.dot(covariance.inverse() * astray);
+  return std::exp(-(0.5 * degrees_of_freedom + 1) * std::log1p(sq / degrees_of_freedom)) /
+         (2 * M_PI * std::sqrt(covariance.determinant()));
+}
+
 TrackState new_track_state(Stamp stamp, const MotionNoise& noise) {
   TrackState state;
   state.stamp = stamp;
@@ -116,9 +123,14 @@ TrackState updated(const TrackState& state, const PlanarStep& before, const Plan
 }
 
 TrackState updated(const TrackState& state, const PlanarStep& measured) {
-  const auto K = gain(state, state.step().covariance + measured.covariance);
+  const Eigen::Vector3d astray = measured.mean - state.mean.head<3>();
+  const Eigen::Matrix3d of_state = state.step().covariance;
+  const double sq = astray.dot((of_state + measured.covariance).inverse() * astray);
+  const double freedom = measured.degrees_of_freedom;
+  const double scale = std::max(1., (freedom + sq) / (freedom + 3));
+  const auto K = gain(state, of_state + scale * measured.covariance);
   TrackState result = state;
-  result.mean += K * (measured.mean - state.mean.head<3>());
+  result.mean += K * astray;
   result.covariance -= K * state.covariance.topRows<3>();
   return result;
 }

@@ -24,11 +24,17 @@ struct MotionNoise {
 struct PlanarStep {
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+  double degrees_of_freedom = 1e6;  ///< that tell the covariance's scale; few: it may be larger
 };
 
 /// @brief Density (1/m^2) of a Gaussian in the plane, so far from its mean.
 [[nodiscard]] double gaussian_density(const Eigen::Vector2d& astray,
                                       const Eigen::Matrix2d& covariance);
+
+/// @brief The same, of Student's t: the covariance's scale is known by so many degrees of freedom
+/// (Lange, Little, Taylor, JASA 1989).
+[[nodiscard]] double student_density(const Eigen::Vector2d& astray,
+                                     const Eigen::Matrix2d& covariance, double degrees_of_freedom);
 
 /// @brief A Gaussian over (x, y, heading, vx, vy, yaw rate, ax, ay): the step since the scan that
 /// last showed the object, velocity, and acceleration but for the curve's own, in the level axes of
@@ -62,7 +68,8 @@ struct TrackState {
 [[nodiscard]] TrackState updated(const TrackState& state, const PlanarStep& before,
                                  const PlanarStep& after);
 
-/// @brief The state given a measurement of its step (Kalman).
+/// @brief The state given a measurement of its step (Kalman). One that is far from what was
+/// expected weighs less where its scale is little known, as Student's t has it.
 [[nodiscard]] TrackState updated(const TrackState& state, const PlanarStep& measured);
 
 /// @brief The state given what is known of a later one (Rauch, Tung, Striebel, AIAA Journal 1965).
