@@ -27,6 +27,15 @@ TEST(RegisteredStep, of_a_piece_of_a_rear_is_sure_ahead_but_not_sideways) {
   EXPECT_GT(step->covariance(1, 1), 10 * step->covariance(0, 0));
 }
 
+TEST(RegisteredStep, of_a_few_points_knows_little_of_how_good_it_is) {
+  const auto many = vehicle(12, 4), few = evenly_thinned(many, 16);
+  const auto by_many = measured(many, many), by_few = measured(few, few);
+  ASSERT_TRUE(by_many && by_few);
+  EXPECT_LT(by_few->degrees_of_freedom, 6);
+  EXPECT_GT(by_many->degrees_of_freedom, 30);
+  EXPECT_LT(by_many->degrees_of_freedom, 1000);
+}
+
 TEST(RegisteredStep, finds_a_view_that_shrinks_in_the_larger_one_before) {
   const auto step = measured(vehicle(12, 4), vehicle(12.3F, 0.5F));
   ASSERT_TRUE(step);

@@ -89,11 +89,5 @@ TEST(ScanFactor, knows_the_end_of_a_side_no_better_than_the_beams_on_it_are_apar
   EXPECT_LT(sparse.log_odds, 0);
 }
 
-TEST(ScanFactor, of_few_points_finds_a_step_weaker_evidence_than_of_many) {
-  const ScanLesson many = lesson_of(4, 4.5F, 0, 0.3F), few = lesson_of(4, 4.5F, 0, 0.8F);
-  EXPECT_GT(many.log_odds, 0);
-  EXPECT_LT(few.log_odds, many.log_odds - 1);
-}
-
 }  // namespace
 }  // namespace lidar_upsampling
