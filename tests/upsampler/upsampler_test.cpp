@@ -148,6 +148,7 @@ TEST(LidarUpsampler, in_a_hurry_objects_go_on_as_they_were_seen_to_move) {
                           }),
             2);
   EXPECT_LT(point_errors(street, scans.back()).moving, 0.15);
+  EXPECT_LT(point_errors(street, scans.back()).standing, 0.02);
   for (const VirtualScan* scan : {&scans[8], &scans[9]})
     for (const StageTime& time : scan->timing)
       EXPECT_STRNE(time.stage, "points to follow") << "nobody will look for them";
