@@ -35,7 +35,9 @@ struct PreparedScan {
   std::vector<ScanObject> objects;                 ///< candidates
   std::vector<OtherCluster> other_clusters;        ///< until a virtual scan has told of them
 
-  [[nodiscard]] TrackedScan tracked() const { return {scan, T_rest_lidar, step_covariance, seen}; }
+  [[nodiscard]] TrackedScan tracked() const {
+    return {scan, T_rest_lidar, step_covariance, seen, segments.vertical_step_deg};
+  }
 };
 
 }  // namespace lidar_upsampling

@@ -114,6 +114,20 @@ TEST(Touching, who_has_come_close_to_what_is_parked_is_a_new_object) {
   EXPECT_EQ(store.tracks[track_of[1]].id, 1);
 }
 
+TEST(Touching, what_one_ring_shows_of_its_roof_has_not_come) {
+  const auto num_objects = [](float second_ring_m) {
+    TrackStore store = parked_car();
+    Points slice;
+    for (int i = 0; i < 12; ++i) {
+      const Eigen::Vector3f at(12, 0.5F + 0.04F * static_cast<float>(i), 0);
+      slice.emplace_back(at.x(), at.y(), -0.02F * at.norm() - (i % 2 == 0 ? second_ring_m : 0));
+    }
+    return StreetScan(0.4, {{car_at(20, 2.2), slice}}).take_up(store).size();
+  };
+  EXPECT_EQ(num_objects(0), 1U);
+  EXPECT_EQ(num_objects(0.1F), 2U);
+}
+
 TEST(Touching, what_was_hidden_beside_what_is_parked_may_have_stood_there_all_along) {
   TrackStore store = parked_car(walker_at(10, 0.4));
   StreetScan merged(0.4, {{car_at(20, 2.2), walker_at(19.9, 0.8)}});

@@ -5,6 +5,7 @@
 #include <tbb/parallel_for.h>
 
 #include "lidar_upsampling/objects/beam_step.h"
+#include "lidar_upsampling/objects/level_slices.h"
 
 namespace lidar_upsampling {
 namespace {
@@ -45,6 +46,7 @@ SceneSegments segment_scan(const LidarScan& scan, const SegmentOptions& options)
   tbb::parallel_for(std::size_t{0}, segments.clusters.size(), [&](std::size_t i) {
     segments.extents[i] = cluster_extent(scan.points, segments.ground.height, segments.clusters[i]);
   });
+  join_level_slices(scan, segments);
   return segments;
 }
 

@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "lidar_upsampling/objects/cluster_extent.h"
+#include "lidar_upsampling/objects/level_slices.h"
 #include "lidar_upsampling/registration/point_index.h"
 #include "lidar_upsampling/registration/voxel_grid.h"
 
@@ -213,6 +214,10 @@ std::vector<ScanObject> parts_of(const ScanObject& object, std::vector<Claim>& c
   std::vector<std::vector<int>> points(to.size());
   for (std::size_t i = 0; i < object.points.size(); ++i)
     points[nearest(to, cubes.of_point[i])].push_back(object.points[i]);
+  const auto is_slice = [&](const std::vector<int>& part) {
+    return is_level_slice(scan.scan, part, scan.vertical_step_deg);
+  };
+  if (std::any_of(points.begin(), points.end(), is_slice)) return {};
   std::vector<ScanObject> parts;
   parts.reserve(points.size());
   for (auto& some : points) parts.push_back(part_of(object, std::move(some), scan.scan));
