@@ -10,7 +10,7 @@
 #include "lidar_upsampling/registration/scan_registration.h"
 #include "lidar_upsampling/se3.h"
 #include "lidar_upsampling/stopwatch.h"
-#include "lidar_upsampling/tracks/scan_factor.h"
+#include "lidar_upsampling/tracks/log_odds.h"
 #include "lidar_upsampling/upsampler.h"
 
 namespace lidar_upsampling {
@@ -87,8 +87,8 @@ std::vector<Eigen::Vector3f> LidarUpsampler::standing_points(const PreparedScan&
   const bool are_tracked = &before == key_.get() && track_of_.size() == before.objects.size();
   std::vector<bool> may_move(before.scan.size(), false);
   for (std::size_t i = 0; i < before.objects.size(); ++i) {
-    const bool is_parked =
-        are_tracked && store_.tracks[track_of_[i]].log_odds < prior_log_odds(config_.object_tracks);
+    const bool is_parked = are_tracked && store_.tracks[track_of_[i]].log_odds <
+                                              log_odds_of(config_.object_tracks.moving_prior);
     if (is_parked) continue;
     for (const int point : before.objects[i].points) may_move[point] = true;
   }

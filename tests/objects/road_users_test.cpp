@@ -34,7 +34,7 @@ LidarScan depth_scan_of(const BoxObject& box) {
       const double to_ground = up < 0 ? -kGroundBelow_m / ray.z() : 1e9;
       const double range = std::min(seen.range_of(ray), to_ground);
       if (range > 14) continue;
-      scan.points.push_back((range * ray).cast<float>());
+      scan.points.emplace_back((range * ray).cast<float>());
       scan.ring.push_back(static_cast<std::uint16_t>(ring));
       scan.column.push_back(static_cast<std::uint16_t>(column));
     }
@@ -71,6 +71,17 @@ TEST(RoadUsers, a_person_is_as_much_wider_than_seen_as_columns_are_apart) {
   };
   EXPECT_EQ(num_found(upright(1.8)), 1U);
   EXPECT_EQ(num_found(upright(2.5)), 0U) << "a pole";
+}
+
+TEST(RoadUsers, are_named_by_size) {
+  const auto name = [](float length, float width, float top) {
+    return std::string(class_by_size({{}, length, width, 0, top}));
+  };
+  EXPECT_EQ(name(4, 1.8F, 1.5F), "car");
+  EXPECT_EQ(name(0.6F, 0.4F, 1.8F), "person");
+  EXPECT_EQ(name(2.5F, 0.2F, 3.4F), "truck");
+  EXPECT_EQ(name(0.6F, 0.2F, 3.4F), "pole");
+  EXPECT_EQ(name(1, 0.4F, 0.7F), "object");
 }
 
 TEST(RoadUsers, what_is_none_has_its_reason) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "lidar_upsampling/tracks/hypotheses.h"
+#include "lidar_upsampling/tracks/scan_factor.h"
 #include "lidar_upsampling/units.h"
 
 #include "tracks/car_on_pictures.h"
@@ -71,6 +72,17 @@ ObjectTrack first_sight(double lidar_yaw,
 double speed_variance(const Course& course, double yaw) {
   const Eigen::Vector2d d = direction(yaw).head<2>();
   return d.dot(course.from.covariance.block<2, 2>(3, 3) * d);
+}
+
+TEST(NewObject, that_looks_like_a_pole_hardly_moves_until_it_looks_like_a_truck) {
+  ObjectTrack track = first_sight(0, person(), "pole");
+  const double as_object = first_sight(0, person(), "object").log_odds;
+  EXPECT_NEAR(track.log_odds, as_object + std::log(0.1), 1e-9);
+  track.log_odds += 3;  // by what was seen since
+  EXPECT_NEAR(log_odds_at(kStart, "pole", track, track.log_odds, {}), track.log_odds, 1e-9);
+  EXPECT_NEAR(log_odds_at(kStart, "truck", track, track.log_odds, {}), as_object + 3, 1e-9);
+  EXPECT_NEAR(log_odds_at(shifted(kStart, 100), "truck", track, track.log_odds, {}), as_object,
+              1e-6);
 }
 
 TEST(NewObject, may_go_anywhere_or_along_our_road_or_along_its_own_sides) {

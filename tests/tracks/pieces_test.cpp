@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "lidar_upsampling/tracks/log_odds.h"
 #include "lidar_upsampling/tracks/object_tracks.h"
-#include "lidar_upsampling/tracks/scan_factor.h"
 
 #include "tracks/car_on_pictures.h"
 #include "tracks/objects_scan.h"
@@ -123,7 +123,7 @@ TEST(Pieces, go_as_pictures_tell_though_the_whole_goes_otherwise) {
 TEST(Pieces, are_not_told_of_what_comes_into_sight_beside_a_parked_bus) {
   const ObjectTrack piece = second_piece_of_bus(0);
   EXPECT_EQ(piece.id, 1);
-  EXPECT_NEAR(piece.log_odds, prior_log_odds({}), 0.3);
+  EXPECT_NEAR(piece.log_odds, log_odds_of(TrackOptions{}.moving_prior), 0.3);
   EXPECT_GT(piece.state.covariance(3, 3), 100);
 }
 

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "lidar_upsampling/tracks/log_odds.h"
 #include "tracks/car_on_pictures.h"
 #include "tracks/vehicle_surface.h"
 
@@ -42,7 +43,7 @@ ScanLesson lesson_of(float rear_before, float rear_now, double ego_m = 0, float 
   track.centroid_rest = mean_of(before);
   track.length = kLength_m;
   track.state = track.by_scans = track.latest = new_track_state(kStart, options.noise);
-  track.log_odds = track.latest_log_odds = prior_log_odds(options);
+  track.log_odds = track.latest_log_odds = log_odds_of(options.moving_prior);
   LidarScan scan;
   scan.stamp = shifted(kStart, dt_s);
   scan.points = now;

@@ -161,6 +161,7 @@ const char* class_by_size(const ClusterExtent& extent) {
     return "car";
   }
   if (extent.length > 2 && extent.top > 2.4F) return "truck";
+  if (extent.length < 1.3F && extent.top > 2.4F) return "pole";
   return "object";
 }
 

@@ -12,7 +12,8 @@ namespace lidar_upsampling {
                                                          const SceneSegments& segments,
                                                          const ClusterDetectorOptions& options);
 
-/// "car", "truck" or "person" by size, "object" where that says nothing.
+/// "car", "truck", "person" or "pole" (posts, edges of walls) by size, "object" where that says
+/// nothing.
 [[nodiscard]] const char* class_by_size(const ClusterExtent& extent);
 
 /// @brief Whether something nearer hides what lies between a cluster's lowest points and the ground

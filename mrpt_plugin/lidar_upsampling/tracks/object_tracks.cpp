@@ -123,7 +123,7 @@ ObjectTrack new_track(const ScanObject& object, const TrackedScan& scan,
                             {whole.state, as_piece});
   track.state = track.beginnings.front().from;
   track.by_scans = new_track_state(track.state.stamp, options.noise);
-  track.log_odds = log_odds_of(moves);
+  track.log_odds = log_odds_of(moves) + log_ratio_of_class(object.class_name);
   return track;
 }
 
@@ -235,7 +235,7 @@ void go_on(ObjectTrack& track, TrackState now, const Pose& T_rest_lidar,
   track.surface = std::make_shared<const Surface>(points_by(track, now, T_rest_lidar));
   track.centroid_rest.head<2>() += now.mean.head<2>();
   track.T_rest_lidar = T_rest_lidar;
-  track.log_odds = decayed(track.latest_log_odds, seconds_between(track.stamp, now.stamp), options);
+  track.log_odds = log_odds_at(now.stamp, track.class_name, track, track.latest_log_odds, options);
   track.latest_log_odds = track.log_odds;
   track.stamp = now.stamp;
   track.seen.reset();

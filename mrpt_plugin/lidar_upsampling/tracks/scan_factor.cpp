@@ -221,11 +221,19 @@ bool judge_step(const ObjectTrack& track, const PlanarStep& step, double locked,
 
 }  // namespace
 
-double prior_log_odds(const TrackOptions& options) { return log_odds_of(options.moving_prior); }
+double log_ratio_of_class(const std::string& class_name) {
+  constexpr double kPole = 0.1;  // it may be the edge of a truck that something hides
+  return class_name == "pole" ? std::log(kPole) : 0;
+}
 
-double decayed(double log_odds, double dt, const TrackOptions& options) {
-  const double prior = prior_log_odds(options);
-  return prior + (log_odds - prior) * std::exp(-dt / options.memory_s);
+double log_odds_at(Stamp instant, const std::string& class_then, const ObjectTrack& track,
+                   double log_odds, const TrackOptions& options) {
+  const auto prior_of = [&](const std::string& class_name) {
+    return log_odds_of(options.moving_prior) + log_ratio_of_class(class_name);
+  };
+  const double dt = seconds_between(track.stamp, instant);
+  return prior_of(class_then) +
+         (log_odds - prior_of(track.class_name)) * std::exp(-dt / options.memory_s);
 }
 
 ScanLesson learn_from_scans(const ObjectTrack& track, const ScanObject& object,
@@ -236,8 +244,9 @@ ScanLesson learn_from_scans(const ObjectTrack& track, const ScanObject& object,
   lesson.from = options.image_factor ? track.latest : track.state;
   lesson.state = predicted(lesson.from, instant, options.noise);
   lesson.by_scans = predicted(track.by_scans, instant, options.noise);
-  lesson.log_odds = decayed(options.image_factor ? track.latest_log_odds : track.log_odds,
-                            seconds_between(track.stamp, instant), options);
+  lesson.log_odds =
+      log_odds_at(instant, object.class_name, track,
+                  options.image_factor ? track.latest_log_odds : track.log_odds, options);
   if (!options.scan_factor) return lesson;
   const TwoSights sights = two_sights(track, surface, scan, lesson.state, options);
   const PlanarStep step = measured_step(track, object, sights, scan, options);

@@ -22,9 +22,12 @@ struct ScanLesson {
                                           const Surface& surface, const TrackedScan& scan,
                                           const TrackOptions& options);
 
-[[nodiscard]] double prior_log_odds(const TrackOptions& options);
+/// How much likelier something that moves is to look so than something that stands.
+[[nodiscard]] double log_ratio_of_class(const std::string& class_name);
 
-/// Of moving, `dt` seconds after or before the instant they were known for.
-[[nodiscard]] double decayed(double log_odds, double dt, const TrackOptions& options);
+/// Of moving, as known at a track's last sight, when it looks like something else, perhaps.
+[[nodiscard]] double log_odds_at(Stamp instant, const std::string& class_then,
+                                 const ObjectTrack& track, double log_odds,
+                                 const TrackOptions& options);
 
 }  // namespace lidar_upsampling
