@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <set>
 
 #include "street_scan.h"
@@ -16,15 +17,15 @@ using testing::BoxObject;
 // A ring meets its roof two metres behind its rear, the next one below the upper edge of that.
 const BoxObject kCar{{10.3, 0, -1.8}, 4.2, 1.8, 1.55, 0};
 
-/// Clusters of a street, by the box on which the points above a height lie.
+/// Clusters of a street, by the box on which points lie that are no ground.
 struct Clusters {
   explicit Clusters(const std::vector<BoxObject>& boxes)
       : street(testing::make_street(testing::flat, boxes)), segments(segment_scan(street.scan)) {}
 
-  [[nodiscard]] std::set<int> of_box(int box, double above_m = -1) const {
+  [[nodiscard]] std::set<int> of_box(int box) const {
     std::set<int> found;
     for (std::size_t i = 0; i < street.truth.size(); ++i)
-      if (street.truth[i] == box && street.scan.points[i].z() > above_m)
+      if (street.truth[i] == box && street.scan.points[i].z() > -1)
         found.insert(segments.cluster_of[i]);
     return found;
   }
