@@ -2,6 +2,7 @@
 // Copyright (c) 2026, the lidar_upsampling authors
 #pragma once
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 
@@ -26,6 +27,13 @@ constexpr float kTurn = 2 * static_cast<float>(M_PI);
 [[nodiscard]] inline float elevation_of(float level_distance, float z) {
   const float angle = azimuth_of(level_distance, std::abs(z));
   return z < 0 ? -angle : angle;
+}
+
+/// @brief The tangent of a place's azimuth, to the left of a direction.
+/// @param ahead unit vector, level; the place lies on its side.
+[[nodiscard]] inline float tangent_from(const Eigen::Vector2f& ahead,
+                                        const Eigen::Vector3f& place) {
+  return (ahead.x() * place.y() - ahead.y() * place.x()) / ahead.dot(place.head<2>());
 }
 
 }  // namespace lidar_upsampling

@@ -7,6 +7,7 @@
 #include <limits>
 #include <utility>
 
+#include "lidar_upsampling/azimuth.h"
 #include "lidar_upsampling/units.h"
 
 namespace lidar_upsampling {
@@ -18,10 +19,6 @@ struct Directions {
   float left = 0, right = 0;  ///< tangents of the azimuth about `ahead`
   float slope = 0;            ///< tangent of the elevation
   float range = 0;            ///< m, level
-
-  [[nodiscard]] float aside(const Eigen::Vector3f& point) const {
-    return (ahead.x() * point.y() - ahead.y() * point.x()) / ahead.dot(point.head<2>());
-  }
 };
 
 Directions directions_of(const LidarScan& scan, const std::vector<int>& cluster,
@@ -31,7 +28,7 @@ Directions directions_of(const LidarScan& scan, const std::vector<int>& cluster,
   result.ahead = extent.centroid.head<2>() / result.range;
   result.slope = extent.centroid.z() / result.range;
   for (const int i : cluster) {
-    const float aside = result.aside(scan.points[i]);
+    const float aside = tangent_from(result.ahead, scan.points[i]);
     result.left = std::max(result.left, aside);
     result.right = std::min(result.right, aside);
   }
@@ -44,7 +41,7 @@ std::size_t num_before(const LidarScan& scan, const std::vector<int>& cluster,
   constexpr float kRoof_m = 4;  // from a car's end to the far end of its roof
   return std::count_if(cluster.begin(), cluster.end(), [&](int i) {
     const Eigen::Vector3f& point = scan.points[i];
-    const float range = point.head<2>().norm(), aside = slice.aside(point);
+    const float range = point.head<2>().norm(), aside = tangent_from(slice.ahead, point);
     return slice.ahead.dot(point.head<2>()) > 0 && aside <= slice.left && aside >= slice.right &&
            range < slice.range && range > slice.range - kRoof_m && point.z() < slice.slope * range;
   });

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 
+#include "lidar_upsampling/azimuth.h"
 #include "lidar_upsampling/types.h"
 #include "lidar_upsampling/units.h"
 
@@ -22,10 +23,6 @@ struct Window {
   float foot = 0, lowest = 0;       ///< of the elevation
   float nearest = 0, farthest = 0;  ///< m, horizontal range of the cluster
 };
-
-float across(const Eigen::Vector2f& ahead, const Eigen::Vector3f& point) {
-  return (ahead.x() * point.y() - ahead.y() * point.x()) / ahead.dot(point.head<2>());
-}
 
 Window window_below(const LidarScan& scan, const Ground& ground, const std::vector<int>& cluster) {
   constexpr float kFar = std::numeric_limits<float>::infinity();
@@ -42,7 +39,7 @@ Window window_below(const LidarScan& scan, const Ground& ground, const std::vect
   for (const int i : cluster) {
     const Eigen::Vector3f& point = scan.points[i];
     const float range = point.head<2>().norm();
-    const float side = across(window.ahead, point);
+    const float side = tangent_from(window.ahead, point);
     window.left = std::max(window.left, side);
     window.right = std::min(window.right, side);
     window.lowest = std::min(window.lowest, point.z() / range);
@@ -141,7 +138,7 @@ bool foot_is_hidden(const LidarScan& scan, const Elevations& elevations, const G
     const Eigen::Vector3f& point = scan.points[i];
     const float range_ahead = window.ahead.dot(point.head<2>());
     if (range_ahead <= 0) return;
-    const float side = across(window.ahead, point);
+    const float side = tangent_from(window.ahead, point);
     if (side > window.left || side < window.right) return;
     num_hidden += static_cast<int>(range < window.nearest - kMargin);
     num_seen += static_cast<int>(range > window.farthest + kMargin);

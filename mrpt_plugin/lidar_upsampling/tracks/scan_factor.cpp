@@ -11,6 +11,7 @@
 
 #include "lidar_upsampling/decompositions.h"
 #include "lidar_upsampling/registration/surface.h"
+#include "lidar_upsampling/tracks/centroid_step.h"
 #include "lidar_upsampling/tracks/faces.h"
 #include "lidar_upsampling/tracks/free_space.h"
 #include "lidar_upsampling/tracks/log_odds.h"
@@ -48,20 +49,6 @@ TwoSights two_sights(const ObjectTrack& track, const Surface& surface, const Tra
     sights.scans.seen_now = scan.seen.get();
   }
   return sights;
-}
-
-/// Where nothing can be registered, the centroid tells; where one of the scans shows more of the
-/// object, that may be at either end.
-PlanarStep centroid_step(const ObjectTrack& track, const ScanObject& object,
-                         const TrackedScan& scan, const TrackOptions& options) {
-  constexpr double kLeast_m = 0.1, kTurn = 1;  // m, as for association; rad: it does not tell
-  const double whole = std::max({object.length, track.whole_length, track.seen ? 0 : kCar_m});
-  const double sigma = std::hypot(kLeast_m + options.extent_error * object.length,
-                                  0.5 * (whole - object.length), 0.5 * (whole - track.length));
-  PlanarStep step;
-  step.mean.head<2>() = (scan.T_rest_lidar * object.centroid - track.centroid_rest).head<2>();
-  step.covariance.diagonal() << sigma * sigma, sigma * sigma, kTurn * kTurn;
-  return step;
 }
 
 /// Whether what is seen of the object tells a step: by a face across it, or an end that both scans
@@ -175,7 +162,8 @@ PlanarStep measured_step(const ObjectTrack& track, const ScanObject& object,
                          const TrackOptions& options) {
   std::optional<PlanarStep> registered;
   if (track.seen) registered = registered_step(sights.scans, scan.T_rest_lidar.linear());
-  PlanarStep step = registered ? *registered : centroid_step(track, object, scan, options);
+  PlanarStep step =
+      registered ? *registered : centroid_step(track, object, sights.scans.now, scan, options);
   join_ends(track, sights, scan, object.length - track.length, step);
   const Eigen::Vector2d along = step.mean.head<2>();
   if (!tells_step(sights, along, scan))
