@@ -35,9 +35,7 @@ struct PreparedScan {
   std::vector<ScanObject> objects;                 ///< candidates
   std::vector<OtherCluster> other_clusters;        ///< until a virtual scan has told of them
 
-  [[nodiscard]] TrackedScan tracked() const {
-    return {scan, T_rest_lidar, step_covariance, seen, segments.vertical_step_deg};
-  }
+  [[nodiscard]] TrackedScan tracked() const { return {scan, T_rest_lidar, step_covariance, seen}; }
 };
 
 }  // namespace lidar_upsampling

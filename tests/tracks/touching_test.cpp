@@ -57,30 +57,6 @@ TrackStore two_cars(double second_speed_m_s) {
   return store;
 }
 
-/// Somebody, half a metre wide.
-Points walker_at(double x, double y) {
-  Points points;
-  for (double z = -1.2; z < 0.5; z += 0.1)
-    for (double aside = -0.25; aside < 0.26; aside += 0.1)
-      points.push_back(Eigen::Vector3d(x, y + aside, z).cast<float>());
-  return points;
-}
-
-/// What some scans of a street have shown of a parked car.
-/// @param others things in the street.
-TrackStore parked_car(const Points& others = {}) {
-  Points all = car_at(20, 2.2);
-  all.insert(all.end(), others.begin(), others.end());
-  const auto seen = std::make_shared<const SeenSpace>(testing::street_with(all));
-  TrackStore store;
-  for (int i = 0; i < 4; ++i) {
-    StreetScan scan(0.1 * i, {{car_at(20, 2.2)}});
-    scan.seen = seen;
-    scan.take_up(store);
-  }
-  return store;
-}
-
 TEST(Touching, who_drives_by_what_is_parked_stays_a_track_of_its_own) {
   TrackStore store = two_cars(0);
   const Points driven = car_at(driven_m(0.8), 0), parked = car_at(20, 2.2);
@@ -99,46 +75,6 @@ TEST(Touching, who_drives_by_what_is_parked_stays_a_track_of_its_own) {
 TEST(Touching, who_goes_the_same_way_stays_one_object) {
   TrackStore store = two_cars(8);
   StreetScan merged(0.8, {{car_at(driven_m(0.8), 0), car_at(20 + 8 * 0.8, 2.2)}});
-  EXPECT_EQ(merged.take_up(store).size(), 1U);
-}
-
-TEST(Touching, who_has_come_close_to_what_is_parked_is_a_new_object) {
-  TrackStore store = parked_car();
-  const Points parked = car_at(20, 2.2), walker = walker_at(19.9, 0.8);
-  StreetScan merged(0.4, {{parked, walker}});
-  const std::vector<int> track_of = merged.take_up(store);
-  ASSERT_EQ(track_of.size(), 2U);
-  EXPECT_EQ(merged.objects[0].points.size(), parked.size());
-  EXPECT_EQ(merged.objects[1].points.size(), walker.size());
-  EXPECT_EQ(store.tracks[track_of[0]].id, 0);
-  EXPECT_EQ(store.tracks[track_of[1]].id, 1);
-}
-
-TEST(Touching, what_one_ring_shows_of_its_roof_has_not_come) {
-  const auto num_objects = [](float second_ring_m) {
-    TrackStore store = parked_car();
-    Points slice;
-    for (int i = 0; i < 12; ++i) {
-      const Eigen::Vector3f at(12, 0.5F + 0.04F * static_cast<float>(i), 0);
-      slice.emplace_back(at.x(), at.y(), -0.02F * at.norm() - (i % 2 == 0 ? second_ring_m : 0));
-    }
-    return StreetScan(0.4, {{car_at(20, 2.2), slice}}).take_up(store).size();
-  };
-  EXPECT_EQ(num_objects(0), 1U);
-  EXPECT_EQ(num_objects(0.1F), 2U);
-}
-
-TEST(Touching, what_was_hidden_beside_what_is_parked_may_have_stood_there_all_along) {
-  TrackStore store = parked_car(walker_at(10, 0.4));
-  StreetScan merged(0.4, {{car_at(20, 2.2), walker_at(19.9, 0.8)}});
-  EXPECT_EQ(merged.take_up(store).size(), 1U);
-}
-
-TEST(Touching, what_comes_into_sight_of_who_goes_as_fast_as_we_is_not_somebody_else) {
-  TrackStore store = parked_car();
-  ASSERT_TRUE(store.tracks[0].passage);
-  store.tracks[0].passage->arrived.mean[0] = 1.3;  // told to stand, as its scans lock to the beams
-  StreetScan merged(0.4, {{car_at(20, 2.2), walker_at(19.9, 0.8)}});
   EXPECT_EQ(merged.take_up(store).size(), 1U);
 }
 

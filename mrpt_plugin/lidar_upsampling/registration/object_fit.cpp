@@ -103,12 +103,7 @@ double score_by(const ObjectFit& fit, const Pose& T_target_object, int stride,
     const Eigen::Vector3f place = T * fit.points[i];
     const Sight sight = sight_in(fit, place);
     visible += sight == Sight::hidden ? 0 : 1;
-    if (sight == Sight::hidden)
-      sum += just_covered * just_covered;
-    else if (sight == Sight::seen_through)
-      sum += kScoreCut * kScoreCut;
-    else
-      sum += sq_distance(place, i);
+    sum += sight == Sight::hidden ? just_covered * just_covered : sq_distance(place, i);
   }
   return are_enough(fit, visible, count) ? std::sqrt(sum / count) : kScoreCut;
 }

@@ -25,8 +25,8 @@ constexpr double kScoreCut = 0.5;
 [[nodiscard]] Sight sight_in(const ObjectFit& fit, const Eigen::Vector3f& place);
 
 /// @brief Root mean squared distance to the nearest target point, m. What is hidden counts as if
-/// just covered: neither for nor much against a place. Where the sensor saw through a point it is
-/// as bad as can be, and so is a place of which too little is visible.
+/// just covered: neither for nor much against a place. A place of which too little is visible is as
+/// bad as can be.
 /// @param stride every so many points are asked.
 [[nodiscard]] double score_of(const ObjectFit& fit, const Pose& T_target_object, int stride = 1);
 

@@ -14,7 +14,7 @@ namespace {
 
 /// How far an object may lie from where it was fitted, for all that its points and the target tell.
 struct Ambiguity {
-  double spread_m = 0;                              ///< how far shifted starts go astray
+  double spread_m = 0;  ///< how far shifted starts go astray and fit as well
   Eigen::Matrix2d slack = Eigen::Matrix2d::Zero();  ///< m^2, level covariance told by them
 };
 
@@ -28,9 +28,9 @@ Eigen::Vector2d deviation_of(const Eigen::Vector2d& astray, double shift_m) {
 }
 
 /// Fits the object again from starts beside the answer, where it is held least. One that comes back
-/// part of the way speaks of a weak pull there, one that stays of none. Points lock into one
-/// another's pattern: starts are more than half a step of it away, and within a step they may lie
-/// anyhow.
+/// part of the way speaks of a weak pull there, one that stays of none, however well it fits.
+/// Points lock into one another's pattern: starts are more than half a step of it away, and within
+/// a step they may lie anyhow.
 Ambiguity ambiguity_of(const ObjectFit& problem, const Fitted& best) {
   constexpr double kShift = 0.2;
   const Sampling sampling = sampling_under(problem, best.T);
@@ -40,9 +40,9 @@ Ambiguity ambiguity_of(const ObjectFit& problem, const Fitted& best) {
   for (const double side : {shift_m, -shift_m}) {
     Eigen::Vector2d astray = side * sampling.loosest;
     const Fitted again = converge(problem, shifted_by(best.T, astray.x(), astray.y()), stop);
-    if (again.score >= 1.15 * best.score + 0.005) continue;
     astray = (again.T * problem.centroid - best.T * problem.centroid).head<2>();
-    result.spread_m = std::max(result.spread_m, astray.norm());
+    if (again.score < 1.15 * best.score + 0.005)
+      result.spread_m = std::max(result.spread_m, astray.norm());
     const Eigen::Vector2d deviation = deviation_of(astray, shift_m);
     result.slack += 0.5 * deviation * deviation.transpose();  // it is tried both ways
   }

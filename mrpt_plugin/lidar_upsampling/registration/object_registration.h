@@ -55,8 +55,8 @@ struct ObjectRegistration {
 /// the ego-motion, and again from shifted starts to see whether the answer is unique.
 /// @param target the other scan, without ground.
 /// @param guesses T_target_object; the first is the ego-motion.
-/// @param seen by the target's sensor: what is hidden from it needs no counterpart, where it saw
-/// through the object cannot be; null: not known.
+/// @param seen by the target's sensor: what is hidden from it needs no counterpart; null: not
+/// known.
 /// @throw std::invalid_argument no guess.
 [[nodiscard]] ObjectRegistration register_object(const std::vector<Eigen::Vector3f>& points_object,
                                                  const Surface& target,

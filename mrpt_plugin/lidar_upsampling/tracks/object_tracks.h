@@ -108,7 +108,6 @@ struct TrackedScan {
   const Pose& T_rest_lidar;
   const Matrix6d& step_covariance;  ///< of the ego-motion since the scan before, a left increment
   std::shared_ptr<const SeenSpace> seen;  ///< not null
-  double vertical_step_deg = 0.4;         ///< between its rings
 };
 
 /// @brief Whether an image since its last sight told something of it that scans to come do not tell

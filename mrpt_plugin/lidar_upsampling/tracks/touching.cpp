@@ -9,12 +9,9 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
-#include <optional>
 #include <utility>
 
 #include "lidar_upsampling/objects/cluster_extent.h"
-#include "lidar_upsampling/objects/level_slices.h"
-#include "lidar_upsampling/registration/point_index.h"
 #include "lidar_upsampling/registration/voxel_grid.h"
 
 namespace lidar_upsampling {
@@ -84,36 +81,6 @@ std::vector<int> motions_of(const std::vector<Claim>& claims) {
   return motion_of;
 }
 
-/// Whether its last two sights lie one upon the other, too: what goes as fast as we looks as if it
-/// locked to the beams.
-bool is_still(const ObjectTrack& track) {
-  return !track.passage || track.passage->arrived.mean.head<2>().norm() < kReach_m;
-}
-
-/// The claim of what was seen last, if all are still: else what moves may be what has come.
-const Claim* last_standing(const std::vector<Claim>& claims) {
-  const Claim* last = nullptr;
-  for (const Claim& claim : claims) {
-    if (claim.moves || !is_still(*claim.track)) return nullptr;
-    if (claim.track->seen && (last == nullptr || last->track->stamp < claim.track->stamp))
-      last = &claim;
-  }
-  return last;
-}
-
-/// Whether that scan saw through a place: what stands is not there.
-bool was_free(const Claim& claim, const Eigen::Vector3f& place) {
-  return claim.track->seen->at(claim.T_then_lidar * place) == Sight::seen_through;
-}
-
-/// Whether something may have come, by some of the points.
-bool may_have_come(const ScanObject& object, const LidarScan& scan, const Claim& standing) {
-  constexpr std::size_t kAsked = 400;
-  for (std::size_t i = 0; i < object.points.size(); i += 1 + object.points.size() / kAsked)
-    if (was_free(standing, scan.points[object.points[i]])) return true;
-  return false;
-}
-
 bool all_alike(const std::vector<int>& motion_of) {
   return std::count(motion_of.begin(), motion_of.end(), 0) == static_cast<long>(motion_of.size());
 }
@@ -134,23 +101,6 @@ Distances distances(const std::vector<Eigen::Vector3f>& places, const std::vecto
     }
   }
   return result;
-}
-
-/// Places of what has come: off all that was known to stand, where it was free.
-/// @param to squared distances from what stands, the far ones kReach_m.
-std::vector<Eigen::Vector3f> newcomers(const std::vector<Eigen::Vector3f>& places,
-                                       const std::vector<float>& to, const Claim& standing) {
-  std::vector<Eigen::Vector3f> result;
-  for (std::size_t i = 0; i < places.size(); ++i)
-    if (to[i] >= kReach_m * kReach_m && was_free(standing, places[i])) result.push_back(places[i]);
-  return result;
-}
-
-/// One motion more: of what has come, of which no track tells.
-void add_newcomers(const PointIndex& came, const std::vector<Eigen::Vector3f>& places, float far,
-                   Distances& to) {
-  std::vector<float>& row = to.emplace_back();
-  for (const Eigen::Vector3f& place : places) row.push_back(came.nearest(place, far).sq_distance);
 }
 
 /// The motion that is nearest to a place.
@@ -191,33 +141,20 @@ std::vector<ScanObject> parts_of(const ScanObject& object, std::vector<Claim>& c
   for (Claim& claim : claims)
     claim.T_then_lidar = from_sight(*claim.track, claim.now, scan.T_rest_lidar).inverse();
   const std::vector<int> motion_of = motions_of(claims);
-  const Claim* standing = last_standing(claims);
-  if (standing != nullptr ? !may_have_come(object, scan.scan, *standing) : all_alike(motion_of))
-    return {};
+  if (all_alike(motion_of)) return {};
   // Surfaces are no finer.
   const VoxelGroups cubes = group_by_voxel(points_at(scan.scan, object.points), kFine_m);
   // Most are asked in vain: what is far is looked for only where two are near.
   constexpr float kNear = kReach_m * kReach_m, kAny = std::numeric_limits<float>::max();
   Distances to = distances(cubes.means, claims, motion_of, kNear);
-  std::optional<PointIndex> came;
-  if (standing != nullptr) {
-    came.emplace(newcomers(cubes.means, to.front(), *standing));
-    if (came->points().empty()) return {};
-    add_newcomers(*came, cubes.means, kNear, to);
-  }
   const std::vector<bool> is_seen = are_seen(to, cubes.of_point);
   if (std::count(is_seen.begin(), is_seen.end(), true) < 2) return {};
   to = distances(cubes.means, claims, motion_of, kAny);
-  if (came) add_newcomers(*came, cubes.means, kAny, to);
   for (std::size_t m = to.size(); m-- > 0;)
     if (!is_seen[m]) to.erase(to.begin() + static_cast<long>(m));
   std::vector<std::vector<int>> points(to.size());
   for (std::size_t i = 0; i < object.points.size(); ++i)
     points[nearest(to, cubes.of_point[i])].push_back(object.points[i]);
-  const auto is_slice = [&](const std::vector<int>& part) {
-    return is_level_slice(scan.scan, part, scan.vertical_step_deg);
-  };
-  if (std::any_of(points.begin(), points.end(), is_slice)) return {};
   std::vector<ScanObject> parts;
   parts.reserve(points.size());
   for (auto& some : points) parts.push_back(part_of(object, std::move(some), scan.scan));

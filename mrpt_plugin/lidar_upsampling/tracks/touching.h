@@ -10,8 +10,7 @@ namespace lidar_upsampling {
 
 /// @brief Parts what a scan shows as one where tracks of different motions touch: a car that passes
 /// a parked one, people who meet. The points of each cube of kFine_m go to the motion whose surface
-/// is predicted nearest. So does what nobody knows yet and has come close to what stands: off all
-/// that stood there, where the scan before saw through.
+/// is predicted nearest.
 /// @param objects in and out; a new one for each motion more.
 void part_touching(const TrackStore& store, const TrackedScan& scan, const TrackOptions& options,
                    std::vector<ScanObject>& objects);
