@@ -32,16 +32,18 @@ Eigen::Vector2d deviation_of(const Eigen::Vector2d& astray, double shift_m) {
 /// Points lock into one another's pattern: starts are more than half a step of it away, and within
 /// a step they may lie anyhow.
 Ambiguity ambiguity_of(const ObjectFit& problem, const Fitted& best) {
-  constexpr double kShift = 0.2;
+  constexpr double kShift_m = 0.2;                   // m: more than noise carries a fit
+  constexpr double kWorse = 1.15, kNoise_m = 0.005;  // times and more: who fits as well
   const Sampling sampling = sampling_under(problem, best.T);
-  const double shift_m = std::clamp(0.6 * sampling.spacing_m, kShift, problem.options.max_shift_m);
+  const double shift_m =
+      std::clamp(0.6 * sampling.spacing_m, kShift_m, problem.options.max_shift_m);
   const double stop = 0.01 * shift_m;  // finer would tell nothing of who comes back
   Ambiguity result;
   for (const double side : {shift_m, -shift_m}) {
     Eigen::Vector2d astray = side * sampling.loosest;
     const Fitted again = converge(problem, shifted_by(best.T, astray.x(), astray.y()), stop);
     astray = (again.T * problem.centroid - best.T * problem.centroid).head<2>();
-    if (again.score < 1.15 * best.score + 0.005)
+    if (again.score < kWorse * best.score + kNoise_m)
       result.spread_m = std::max(result.spread_m, astray.norm());
     const Eigen::Vector2d deviation = deviation_of(astray, shift_m);
     result.slack += 0.5 * deviation * deviation.transpose();  // it is tried both ways

@@ -169,7 +169,7 @@ void part_touching(const TrackStore& store, const TrackedScan& scan, const Track
   tbb::parallel_for(std::size_t{0}, objects.size(), [&](std::size_t i) {
     if (objects[i].external_id >= 0) return;  // the detector has parted it
     std::vector<Claim> claims = claims_on(objects[i], store, scan, options);
-    if (!claims.empty()) parts[i] = parts_of(objects[i], claims, scan);
+    parts[i] = parts_of(objects[i], claims, scan);
   });
   for (std::size_t i = 0; i < parts.size(); ++i) {
     if (parts[i].empty()) continue;
