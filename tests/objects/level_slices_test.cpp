@@ -63,16 +63,26 @@ TEST(LevelSlices, what_lies_farther_behind_than_a_roof_is_long_is_something_else
   EXPECT_NE(clusters.of_box(0), clusters.of_box(1));
 }
 
-TEST(LevelSlices, what_stands_upright_is_none_though_far_away_one_ring_alone_shows_it) {
-  const Clusters clusters({{{60, 0, -1.8}, 4, 1.8, 1, 0}});
+TEST(LevelSlices, what_one_ring_alone_shows_far_away_is_none_as_it_may_stand_upright) {
+  const Clusters clusters({{{57, 0, -1.8}, 0.4, 1.8, 1.2, 0}, {{60, 0, -1.8}, 0.4, 1.8, 1.8, 0}});
   const LidarScan& scan = clusters.street.scan;
-  std::vector<int> one_ring;
-  for (std::size_t i = 0; i < scan.size(); ++i)
-    if (clusters.street.truth[i] == 0 &&
-        (one_ring.empty() || scan.ring[i] == scan.ring[one_ring[0]]))
-      one_ring.push_back(static_cast<int>(i));
-  ASSERT_GT(one_ring.size(), 4U);
-  EXPECT_FALSE(is_level_slice(scan, one_ring, clusters.segments.vertical_step_deg));
+  SceneSegments segments = clusters.segments;
+  ASSERT_EQ(clusters.of_box(0).size(), 1U);
+  ASSERT_EQ(clusters.of_box(1).size(), 1U);
+  ASSERT_NE(clusters.of_box(0), clusters.of_box(1));
+  const int far = *clusters.of_box(1).begin();
+  std::vector<int>& of_far = segments.clusters[far];
+  const auto highest = *std::max_element(of_far.begin(), of_far.end(), [&](int a, int b) {
+    return scan.points[a].z() < scan.points[b].z();
+  });
+  of_far.erase(std::remove_if(of_far.begin(), of_far.end(),
+                              [&](int i) { return scan.ring[i] != scan.ring[highest]; }),
+               of_far.end());
+  ASSERT_GT(of_far.size(), 4U);
+  segments.extents[far] = cluster_extent(scan.points, segments.ground.height, of_far);
+  const std::size_t before = segments.clusters.size();
+  join_level_slices(scan, segments);
+  EXPECT_EQ(segments.clusters.size(), before);
 }
 
 }  // namespace

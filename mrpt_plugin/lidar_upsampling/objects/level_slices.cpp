@@ -13,6 +13,23 @@
 namespace lidar_upsampling {
 namespace {
 
+/// Whether one ring shows all of a cluster, where rings are so close that they show more of
+/// whatever is upright.
+/// @param vertical_step_deg between neighbouring rings.
+bool is_level_slice(const LidarScan& scan, const std::vector<int>& cluster,
+                    double vertical_step_deg) {
+  constexpr float kUpright_m = 0.25F, kOneRing = 0.5F;  // of the step between rings
+  const auto step = static_cast<float>(std::tan(vertical_step_deg * kDegree));
+  float least = std::numeric_limits<float>::infinity(), most = -least;
+  for (const int i : cluster) {
+    const float range = scan.points[i].head<2>().norm(), slope = scan.points[i].z() / range;
+    least = std::min(least, slope);
+    most = std::max(most, slope);
+    if (most - least > kOneRing * step || range * step > kUpright_m) return false;
+  }
+  return true;
+}
+
 /// Directions as the sensor sees them.
 struct Directions {
   Eigen::Vector2f ahead;      ///< unit, level
@@ -67,20 +84,6 @@ int whole_of(const LidarScan& scan, const SceneSegments& segments, std::size_t s
 }
 
 }  // namespace
-
-bool is_level_slice(const LidarScan& scan, const std::vector<int>& cluster,
-                    double vertical_step_deg) {
-  constexpr float kUpright_m = 0.25F, kOneRing = 0.5F;  // of the step between rings
-  const auto step = static_cast<float>(std::tan(vertical_step_deg * kDegree));
-  float least = std::numeric_limits<float>::infinity(), most = -least;
-  for (const int i : cluster) {
-    const float range = scan.points[i].head<2>().norm(), slope = scan.points[i].z() / range;
-    least = std::min(least, slope);
-    most = std::max(most, slope);
-    if (most - least > kOneRing * step || range * step > kUpright_m) return false;
-  }
-  return true;
-}
 
 void join_level_slices(const LidarScan& scan, SceneSegments& segments) {
   if (segments.ground.status != GroundStatus::found) return;

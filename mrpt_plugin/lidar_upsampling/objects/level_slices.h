@@ -5,14 +5,9 @@
 #include "lidar_upsampling/objects/scene_segments.h"
 
 /// What a single ring shows of a roof or a bonnet is no object by itself: it lies where that ring
-/// meets a level surface, so that it goes with the sensor rather than with what it belongs to.
+/// meets a level surface, so that it goes with the sensor rather than with what it belongs to. So
+/// it is only where rings are so close that they show more of whatever is upright.
 namespace lidar_upsampling {
-
-/// @brief Whether one ring shows all of a cluster, where rings are so close that they show more of
-/// whatever is upright.
-/// @param vertical_step_deg between neighbouring rings.
-[[nodiscard]] bool is_level_slice(const LidarScan& scan, const std::vector<int>& cluster,
-                                  double vertical_step_deg);
 
 /// @brief Joins level slices to the clusters below and before them.
 void join_level_slices(const LidarScan& scan, SceneSegments& segments);
